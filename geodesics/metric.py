@@ -1,0 +1,39 @@
+"""A metric on a mesh: three squared edge lengths per face, and a mass per vertex."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics import intrinsic
+from geodesics.delaunay import intrinsic_delaunay
+from geodesics.mesh import Mesh
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Metric:
+    """Squared edge lengths l_sq (m, 3), edge k opposite corner k, and vertex mass (n,).
+
+    Three lengths per triangle are a metric tensor; neighbouring faces need not agree on the length of their
+    shared edge. `conformal_factor` (n,) is rho when the metric is rho * g with g the embedded one, else None:
+    conformal metrics share angles, so flips and stiffness are those of the embedded metric.
+    """
+
+    mesh: Mesh
+    l_sq: Array
+    mass: Array
+    conformal_factor: Array | None = None
+
+
+def conformal(mesh: Mesh, factor: Array) -> Metric:
+    """The metric rho * g for a positive factor rho (n,) per vertex; g is the embedded metric."""
+    from geodesics.laplacian import vertex_areas
+
+    slowness = np.sqrt(factor)[mesh.faces].mean(axis=1)
+    l_sq = intrinsic.squared_lengths(mesh.vertices, mesh.faces) * slowness[:, None] ** 2
+    mass = factor * vertex_areas(intrinsic_delaunay(mesh), mesh.n_vertices)
+    return Metric(mesh, l_sq, mass, factor)
