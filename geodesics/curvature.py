@@ -7,9 +7,9 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from geodesics import intrinsic
-from geodesics._memo import memoized
 from geodesics.delaunay import intrinsic_delaunay
 from geodesics.mesh import Mesh
+from geodesics.topology import boundary_vertices
 
 Array = NDArray[np.float64]
 
@@ -22,16 +22,6 @@ def angle_defect(mesh: Mesh) -> Array:
     flat = np.where(boundary_vertices(mesh), np.pi, 2 * np.pi)
     flat[np.bincount(mesh.faces.ravel(), minlength=mesh.n_vertices) == 0] = 0
     return flat - total
-
-
-@memoized
-def boundary_vertices(mesh: Mesh) -> NDArray[np.bool_]:
-    """True where a vertex touches an edge with only one face, shape (n,)."""
-    edges = np.sort(mesh.faces[:, [[1, 2], [2, 0], [0, 1]]].reshape(-1, 2), axis=1)
-    unique, count = np.unique(edges, axis=0, return_counts=True)
-    mask = np.zeros(mesh.n_vertices, dtype=bool)
-    mask[unique[count == 1]] = True
-    return mask
 
 
 def gaussian_curvature(mesh: Mesh, smoothing: float = 3e-4) -> Array:

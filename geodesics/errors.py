@@ -79,3 +79,12 @@ class ZeroArea(MeshError):
     """Every face has zero area."""
 
     code = "E114"
+
+
+class EigensolverFailed(RuntimeError):
+    """The eigenvalue iteration did not converge, or the matrix could not be factorised."""
+
+    code = "E402"
+
+    def __init__(self, message: str) -> None:
+        super().__init__(f"{self.code}: {message}")

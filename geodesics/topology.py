@@ -1,0 +1,34 @@
+"""How the faces of a mesh hang together: boundary and connected components."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from geodesics._memo import memoized
+from geodesics.mesh import Mesh
+
+
+@memoized
+def boundary_vertices(mesh: Mesh) -> NDArray[np.bool_]:
+    """True where a vertex touches an edge with only one face, shape (n,)."""
+    edges = np.sort(mesh.faces[:, [[1, 2], [2, 0], [0, 1]]].reshape(-1, 2), axis=1)
+    _, first, count = np.unique(edges[:, 0] * mesh.n_vertices + edges[:, 1], return_index=True, return_counts=True)
+    mask = np.zeros(mesh.n_vertices, dtype=bool)
+    mask[edges[first[count == 1]]] = True
+    return mask
+
+
+@memoized
+def vertex_components(mesh: Mesh) -> NDArray[np.int64]:
+    """Component label of every vertex, shape (n,), numbered from 0; -1 where a vertex is on no face."""
+    n, faces = mesh.n_vertices, mesh.faces
+    edges = faces[:, [0, 1, 0, 2]].reshape(-1, 2)
+    graph = sp.coo_matrix((np.ones(len(edges), dtype=np.int8), edges.T), shape=(n, n))
+    label = sp.csgraph.connected_components(graph, directed=False)[1]
+    used = np.zeros(n, dtype=bool)
+    used[faces] = True
+    compact = np.full(n, -1, dtype=np.int64)
+    compact[used] = np.unique(label[used], return_inverse=True)[1]
+    return compact
