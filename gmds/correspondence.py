@@ -1,0 +1,165 @@
+"""The answer: for every source vertex a point on the target surface."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from geodesics.mesh import Mesh
+from geodesics.points import SurfacePoints
+from gmds.errors import MapArray, MapError
+from gmds.map_file import read_map, write_map
+from gmds.transfer import carry
+
+
+class MatchStatus(Enum):
+    """How far a map can be trusted, best first; the value is a sentence for people."""
+
+    GOOD = "The map preserves distances well and no other map does nearly as well."
+    PARTIAL = "Parts of the source have no counterpart in the target; see `valid`."
+    AMBIGUOUS = "Another map, for instance the mirrored one, does nearly as well; see `candidates`."
+    UNRATED = "Nobody has rated this map; see `distortion`."
+    POOR = "Distances are badly preserved; the two surfaces may not be the same kind of thing."
+
+    @property
+    def rank(self) -> int:
+        """0 for the best status, growing as trust falls."""
+        return list(MatchStatus).index(self)
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """Another map worth looking at, for instance the mirrored one.
+
+    `points` has one row per source vertex; `stress` is what the embedding left over (small is good);
+    `orientation` is the area share of the source whose triangles keep their orientation, minus the rest, in [-1, 1].
+    """
+
+    points: SurfacePoints
+    stress: float
+    orientation: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Correspondence:
+    """A map from every vertex of `source` (n of them) to a point of `target`.
+
+    `points`: n SurfacePoints on the target. `valid` (n,) bool: False where the vertex has no counterpart; the point
+    of such a row is finite and means nothing. `distortion` (n,) float64 >= 0: how badly distances from the vertex are
+    preserved, relative to the size of the target. `candidates`: other maps, best first. `meta`: parameters, seed,
+    versions and timings, as JSON can carry them.
+
+    Raises `MapError` when a row is missing, not finite, or lies on another mesh than `target`.
+    """
+
+    source: Mesh
+    target: Mesh
+    points: SurfacePoints
+    valid: NDArray[np.bool_]
+    distortion: NDArray[np.float64]
+    status: MatchStatus = MatchStatus.UNRATED
+    candidates: tuple[Candidate, ...] = ()
+    meta: Mapping[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        n = self.source.n_vertices
+        if self.points.mesh is not self.target:
+            raise MapError("the points lie on another mesh than the target; make them with SurfacePoints(target, ...)")
+        for name, rows in (
+            ("points", len(self.points)),
+            ("valid", len(self.valid)),
+            ("distortion", len(self.distortion)),
+        ):
+            if rows != n:
+                raise MapError(f"{name} has {rows} rows; the source has {n} vertices and a map one row for each")
+        bad = np.flatnonzero(~np.isfinite(self.points.barycentric).all(axis=1) | ~np.isfinite(self.distortion))
+        if len(bad):
+            raise MapError(f"row {bad[0]} is not finite ({len(bad)} such rows)")
+        for name, dtype in (("valid", np.bool_), ("distortion", np.float64)):
+            array = np.array(getattr(self, name), dtype=dtype).reshape(-1)
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
+        object.__setattr__(self, "candidates", tuple(self.candidates))
+
+    @classmethod
+    def from_points(cls, source: Mesh, points: SurfacePoints, **fields: Any) -> Correspondence:
+        """The map that sends vertex i of `source` to `points[i]`; everything else is optional.
+
+        `valid` is True except at vertices on no face, `distortion` is zero.
+        """
+        fields.setdefault("valid", np.bincount(source.faces.ravel(), minlength=source.n_vertices) > 0)
+        fields.setdefault("distortion", np.zeros(source.n_vertices))
+        return cls(source=source, target=points.mesh, points=points, **fields)
+
+    def __repr__(self) -> str:
+        counts = f"{self.source.n_vertices} -> {self.target.n_vertices} vertices, {int(self.valid.sum())} valid"
+        return f"Correspondence({counts}, {self.status.name})"
+
+    def vertex_map(self) -> NDArray[np.int64]:
+        """The target vertex nearest to each point, among the corners of its face: (n,) int64."""
+        return self.points.nearest_vertices()
+
+    def transfer(self, values: ArrayLike, *, labels: bool | None = None, fill: Any = None) -> NDArray[Any]:
+        """Values per target vertex, (n_target,) or (n_target, c), as values per source vertex.
+
+        Numbers and colours are interpolated on the triangle; labels take the value with the largest weight and keep
+        their dtype. By default integers, booleans and strings are labels, except uint8 with 3 or 4 columns, which are
+        colours. `fill` goes into the rows that are not `valid`; without it they hold whatever their point says.
+        Raises `MapError` when there is not one value per target vertex.
+        """
+        moved = carry(self.points, np.asarray(values), labels)
+        if fill is not None:
+            moved[~self.valid] = fill
+        return moved
+
+    def inverse(self) -> Correspondence:
+        """The map from target to source: each target vertex goes to where the nearest image of a source triangle is.
+
+        See `gmds.algebra.invert` for the method and its limits.
+        """
+        from gmds.algebra import invert
+
+        return invert(self)
+
+    def compose(self, other: Correspondence) -> Correspondence:
+        """First this map, then `other`, whose source is this map's target.
+
+        See `gmds.algebra.compose` for the method. Raises `MapError` when the meshes do not meet.
+        """
+        from gmds.algebra import compose
+
+        return compose(self, other)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write map.npz, version 1 (see `gmds.map_file`), atomically; candidates are not kept."""
+        arrays = {
+            "face": self.points.face,
+            "barycentric": self.points.barycentric,
+            "vertex": self.vertex_map(),
+            "valid": self.valid,
+            "distortion": self.distortion,
+        }
+        write_map(path, arrays, {**self.meta, "status": self.status.name}, self.source, self.target)
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str], source: Mesh, target: Mesh) -> Correspondence:
+        """Read a map.npz that belongs to these two meshes.
+
+        Raises `FormatError`: E210 members, E211 arrays, E212 other meshes, E213 version, E220 pickled.
+        """
+        arrays, meta = read_map(path, source, target)
+        status = MatchStatus.__members__.get(str(meta.pop("status", "UNRATED")), MatchStatus.UNRATED)
+        meta = {key: value for key, value in meta.items() if key not in ("format", "version", "source", "target")}
+        try:
+            if (arrays["barycentric"] < -1e-9).any() or (abs(arrays["barycentric"].sum(axis=1) - 1) > 1e-6).any():
+                raise MapError("barycentric weights must be >= 0 and sum to 1 in every row")
+            points = SurfacePoints(target, arrays["face"], arrays["barycentric"])
+            return cls(source, target, points, arrays["valid"], arrays["distortion"], status, (), meta)
+        except ValueError as error:
+            raise MapArray(f"{path}: {error}") from error
