@@ -49,8 +49,8 @@ def compose(first: Correspondence, second: Correspondence) -> Correspondence:
     """The map that sends a source vertex through `first`, and its point through `second`.
 
     The three corners of the face a point lies on have images under `second`. When these lie on one face, or the point
-    is a corner, the image follows exactly; else it is the surface point nearest to their weighted mean. Where the
-    images are torn apart (further than 0.1 sqrt(area) from each other) the heaviest corner decides.
+    is a corner, the image follows exactly; else it is the surface point nearest to their weighted mean. Where `second`
+    tears the face (as in `invert`) the heaviest corner decides.
     A row is `valid` when `first` is there and `second` is at every corner with weight; distortions add.
     Raises `MapError` when `second` does not start on the mesh where `first` ends.
     """
@@ -68,8 +68,8 @@ def compose(first: Correspondence, second: Correspondence) -> Correspondence:
     same = inside & (corner_face == corner_face[:, :1]).all(axis=1)
     face[same] = corner_face[same, 0]
     barycentric[same] = np.einsum("pk,pkj->pj", weights[same], corner_weights[same])
-    spread = np.linalg.norm(position - np.roll(position, 1, axis=1), axis=2).max(axis=1)
-    mixed = np.flatnonzero(inside & ~same & (spread <= 2 * FAR * np.sqrt(_area(second.target))))
+    torn = _torn(second.source, second.points.positions, np.sqrt(_area(second.target)))[first.points.face]
+    mixed = np.flatnonzero(inside & ~same & ~torn)
     if len(mixed):
         mean = np.einsum("pk,pkj->pj", weights[mixed], position[mixed])
         face[mixed], barycentric[mixed], _ = closest_on_triangles(mean, second.target.vertices, second.target.faces)
@@ -122,6 +122,7 @@ def _on_edge(queries: Array, triangles: Array, k: int) -> Array:
 
 
 def _torn(source: Mesh, image: Array, size: float) -> NDArray[np.bool_]:
+    """Source faces (m,) with an edge that the map stretches beyond reason; size is sqrt(target area)."""
     before = np.sqrt(intrinsic.squared_lengths(source.vertices, source.faces)) * size / np.sqrt(_area(source))
     after = np.sqrt(intrinsic.squared_lengths(image, source.faces))
     return ((after > TORN * before) & (after > 2 * FAR * size)).any(axis=1)

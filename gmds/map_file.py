@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from geodesics.errors import FormatError
 from geodesics.mesh import Mesh
 from gmds._files import atomic_write
 from gmds.errors import MapArray, MapMembers, MapMismatch, MapVersion, PickledMember
@@ -55,16 +56,26 @@ def read_map(path: str | os.PathLike[str], source: Mesh, target: Mesh) -> tuple[
     E220 (pickled); `OSError` when the file can not be opened.
     """
     path = Path(path)
-    try:
-        with zipfile.ZipFile(path) as archive:
-            _check_names(path, archive)
-            meta = _parse_meta(path, _member(path, archive, "meta", None))
-            _check_meshes(path, meta, source, target)
-            shapes: dict[str, tuple[int, ...]] = {name: (source.n_vertices,) for name in DTYPES if name != "meta"}
-            shapes |= {"barycentric": (source.n_vertices, 3)}
-            return {name: _member(path, archive, name, shape) for name, shape in shapes.items()}, meta
-    except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError) as error:
-        raise MapMembers(f"{path} is not a readable npz archive ({error}); write it again with save()") from error
+    if path.exists() and not path.is_file():  # opening a pipe would wait for ever
+        raise OSError(f"{path} is not a regular file")
+    with path.open("rb") as stream:
+        try:
+            with zipfile.ZipFile(stream) as archive:
+                return _read_members(path, archive, source, target)
+        except FormatError:
+            raise
+        except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, OSError, ValueError, KeyError) as error:
+            # what zipfile raises on bytes that were damaged after the archive was written
+            raise MapMembers(f"{path} is not a readable npz archive ({error}); write it again with save()") from error
+
+
+def _read_members(path: Path, archive: zipfile.ZipFile, source: Mesh, target: Mesh) -> tuple[Arrays, dict[str, Any]]:
+    _check_names(path, archive)
+    meta = _parse_meta(path, _member(path, archive, "meta", None))
+    _check_meshes(path, meta, source, target)
+    shapes: dict[str, tuple[int, ...]] = {name: (source.n_vertices,) for name in DTYPES if name != "meta"}
+    shapes |= {"barycentric": (source.n_vertices, 3)}
+    return {name: _member(path, archive, name, shape) for name, shape in shapes.items()}, meta
 
 
 def _plain(value: Any) -> Any:
