@@ -4,24 +4,118 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import igl
 import numpy as np
 from numpy.typing import NDArray
 
+from geodesics._kernels import flips
 from geodesics._memo import memoized
 from geodesics.intrinsic import squared_lengths
 from geodesics.mesh import Mesh
 
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
 
 class IntrinsicTriangulation(NamedTuple):
-    """Faces (m, 3) over the mesh's own vertices and their squared edge lengths (m, 3)."""
+    """Faces (m, 3) over the mesh's own vertices and their squared edge lengths (m, 3), edge k opposite corner k."""
 
-    faces: NDArray[np.int64]
-    l_sq: NDArray[np.float64]
+    faces: Integers
+    l_sq: Floats
+
+
+class GluedTriangulation(NamedTuple):
+    """Triangles that know their neighbours: faces (m, 3) and edge lengths (m, 3), edge k opposite corner k.
+
+    `origin` (m,) is the mesh face each row began as. `twin` (3 m,) is the other half-edge (3 * face + corner opposite)
+    of an edge with exactly two faces that agree, else -1. `direction` (m, 3) is the angle of the edge from each corner
+    to the next, summed round the vertex from some first edge, and `whole` (n,) is that sum over one closed ring of
+    faces, else inf (signposts: Sharp, Soliman, Crane 2019, not rescaled to 2 pi). Two faces may join the same vertices.
+    """
+
+    faces: Integers
+    lengths: Floats
+    origin: Integers
+    twin: Integers
+    direction: Floats
+    whole: Floats
 
 
 @memoized
 def intrinsic_delaunay(mesh: Mesh) -> IntrinsicTriangulation:
-    """Edge flips until every edge is intrinsically Delaunay (Fisher et al. 2007)."""
-    lengths, faces = igl.intrinsic_delaunay_triangulation(np.sqrt(squared_lengths(mesh.vertices, mesh.faces)), mesh.faces)[:2]
-    return IntrinsicTriangulation(np.ascontiguousarray(faces, dtype=np.int64), np.ascontiguousarray(lengths) ** 2)
+    """Edge flips until every edge is intrinsically Delaunay (Fisher et al. 2007); distances stay what they were.
+
+    Works on any mesh: edges with other than two faces stay, faces that name a vertex twice and copies of a face are
+    left out, and triangles of zero area are first made barely proper by lengthening every edge by the same 1e-9 or so
+    of the mean (Sharp, Crane 2020).
+    """
+    delaunay = glued_delaunay(mesh)
+    return IntrinsicTriangulation(delaunay.faces, delaunay.lengths**2)
+
+
+@memoized
+def glued_delaunay(mesh: Mesh) -> GluedTriangulation:
+    """The intrinsic Delaunay triangulation with neighbours and directions."""
+    start = glued_faces(mesh)
+    faces, lengths, twin, direction = (a.copy() for a in (start.faces, start.lengths, start.twin, start.direction))
+    flips.flip_to_delaunay(faces, lengths, twin, direction, 100 * len(twin) + 1000)
+    direction = wrapped(direction, start.whole[faces])
+    return GluedTriangulation(faces, lengths, start.origin, twin, direction, start.whole)
+
+
+@memoized
+def glued_faces(mesh: Mesh) -> GluedTriangulation:
+    """The mesh's own proper triangles, no edge flipped, with neighbours and directions."""
+    origin = proper_faces(mesh.faces)
+    faces = mesh.faces[origin]
+    return glued(faces, mollified(np.sqrt(squared_lengths(mesh.vertices, faces))), origin, mesh.n_vertices)
+
+
+def proper_faces(faces: Integers) -> Integers:
+    """Rows of faces (m, 3) with three different vertices, each oriented triple once; ascending."""
+    a, b, c = faces.T
+    proper = np.flatnonzero((a != b) & (b != c) & (c != a))
+    first = faces[proper].argmin(axis=1)
+    turned = faces[proper[:, None], (first[:, None] + np.arange(3)) % 3]
+    return proper[np.sort(np.unique(turned, axis=0, return_index=True)[1])]
+
+
+def mollified(lengths: Floats, relative: float = 1e-9) -> Floats:
+    """Lengths (m, 3) plus the least constant that makes every triangle inequality hold by a margin (Sharp, Crane 2020)."""
+    if len(lengths) == 0:
+        return lengths
+    excess = 2 * lengths.max(axis=1) - lengths.sum(axis=1)
+    return np.ascontiguousarray(lengths + max(0.0, relative * lengths.mean() + excess.max()))
+
+
+def glued(faces: Integers, lengths: Floats, origin: Integers, n: int) -> GluedTriangulation:
+    """Find twins, turn faces to agree, measure directions."""
+    twin = twins(faces)
+    turn = flips.orientation(faces, twin)
+    half_edge = np.arange(3 * len(faces)).reshape(-1, 3)
+    half_edge[turn, 1:] = half_edge[turn, :0:-1]
+    renamed = np.append(half_edge.ravel(), -1)  # -1 stays -1
+    turned_twin = np.empty_like(twin)
+    turned_twin[half_edge.ravel()] = renamed[twin]
+    faces, lengths = faces.copy(), lengths.copy()
+    faces[turn, 1:] = faces[turn, :0:-1]
+    lengths[turn, 1:] = lengths[turn, :0:-1]
+    direction, whole = np.zeros(faces.shape), np.full(n, np.inf)
+    flips.signposts(faces, lengths, turned_twin, direction, whole)
+    return GluedTriangulation(faces, lengths, origin, turned_twin, direction, whole)
+
+
+def twins(faces: Integers) -> Integers:
+    """For each half-edge (3 m,) the other one on an edge with exactly two faces, else -1."""
+    ends = np.sort(faces[:, [[1, 2], [2, 0], [0, 1]]].reshape(-1, 2), axis=1)
+    order = np.lexsort((ends[:, 1], ends[:, 0]))
+    new = np.append(True, (np.diff(ends[order], axis=0) != 0).any(axis=1)) if len(order) else np.zeros(0, dtype=bool)
+    first = np.flatnonzero(new)
+    pairs = first[np.diff(np.append(first, len(order))) == 2]
+    twin = np.full(len(order), -1, dtype=np.int64)
+    twin[order[pairs]], twin[order[pairs + 1]] = order[pairs + 1], order[pairs]
+    return twin
+
+
+def wrapped(direction: Floats, whole: Floats) -> Floats:
+    """Directions taken modulo the whole angle of their vertex, where that is finite."""
+    return np.where(np.isfinite(whole), np.mod(direction, np.where(np.isfinite(whole), whole, 1.0)), direction)
