@@ -2,14 +2,30 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from typing import Literal
+
+
+@dataclass(frozen=True)
+class Note:
+    """Worth knowing, but no error: a stable `code`, its `severity`, a sentence, and the faces or vertices meant."""
+
+    code: str
+    severity: Literal["info", "warning"]
+    message: str
+    indices: tuple[int, ...] = ()
+
+    def __str__(self) -> str:
+        return f"{self.code}: {self.message}"
+
 
 class MeshError(ValueError):
     """Arrays that do not describe a triangle mesh; `code` is stable across versions."""
 
     code = "E100"
 
-    def __init__(self, message: str) -> None:
-        super().__init__(f"{self.code}: {message}")
+    def __str__(self) -> str:
+        return f"{self.code}: {super().__str__()}"
 
 
 class FormatError(ValueError):
@@ -17,8 +33,8 @@ class FormatError(ValueError):
 
     code = "E200"
 
-    def __init__(self, message: str) -> None:
-        super().__init__(f"{self.code}: {message}")
+    def __str__(self) -> str:
+        return f"{self.code}: {super().__str__()}"
 
 
 class NonFiniteVertex(MeshError):
@@ -28,7 +44,7 @@ class NonFiniteVertex(MeshError):
 
 
 class CoordinateRange(MeshError):
-    """Coordinates so large or small that areas are not finite in float64."""
+    """Coordinates so large or small that areas or their squares leave the range of float64."""
 
     code = "E102"
 
@@ -46,7 +62,7 @@ class NoFaces(MeshError):
 
 
 class IndexOutOfRange(MeshError):
-    """A face refers to a vertex that does not exist."""
+    """An index refers to a vertex or face that does not exist."""
 
     code = "E105"
 
@@ -81,10 +97,82 @@ class ZeroArea(MeshError):
     code = "E114"
 
 
+class BadWeights(MeshError):
+    """Barycentric weights are not finite, negative, or do not sum to one."""
+
+    code = "E115"
+
+
+class EmptyFile(FormatError):
+    """The file holds nothing."""
+
+    code = "E201"
+
+
+class NotAFile(FormatError):
+    """The path is a directory, a pipe or a device."""
+
+    code = "E202"
+
+
+class UnknownFormat(FormatError):
+    """The content is none of the supported formats."""
+
+    code = "E203"
+
+
+class TruncatedFile(FormatError):
+    """The file ends before what it declares, or disagrees with its own header."""
+
+    code = "E204"
+
+
+class BadCount(FormatError):
+    """A declared count is not a number, negative, or more than the file can hold."""
+
+    code = "E205"
+
+
+class BadPolygon(FormatError):
+    """A face of fewer than three corners, or of more than its line holds."""
+
+    code = "E206"
+
+
+class BadToken(FormatError):
+    """Something stands where a plain decimal number should."""
+
+    code = "E207"
+
+
+class LineTooLong(FormatError):
+    """A line of a text file is longer than the limit."""
+
+    code = "E208"
+
+
+class BadContainer(FormatError):
+    """A GLB file whose parts disagree, or which holds other than one mesh."""
+
+    code = "E209"
+
+
+class ExternalReference(FormatError):
+    """The file refers to another file, which is never opened."""
+
+    code = "E222"
+
+
+class MissingExtra(ImportError):
+    """An optional dependency is not installed; the message names the extra."""
+
+    code = "E601"
+
+
 class EigensolverFailed(RuntimeError):
     """The eigenvalue iteration did not converge, or the matrix could not be factorised."""
 
     code = "E402"
 
-    def __init__(self, message: str) -> None:
-        super().__init__(f"{self.code}: {message}")
+    def __str__(self) -> str:
+        return f"{self.code}: {super().__str__()}"

@@ -1,0 +1,67 @@
+"""Reading and writing mesh files; strict, atomic, and without changing the order of anything."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+from geodesics.errors import MeshError, Note
+from geodesics.io.atomic import atomic_write
+from geodesics.io.glb import read_glb
+from geodesics.io.obj import read_obj
+from geodesics.io.off import read_off
+from geodesics.io.opening import read_bytes, sniff
+from geodesics.io.ply import read_ply
+from geodesics.io.stl import read_stl
+from geodesics.io.text import Contents
+from geodesics.io.tosca import read_tosca, tosca_paths
+from geodesics.io.writing import encode
+from geodesics.mesh import Mesh
+
+__all__ = ["atomic_write", "read_mesh", "read_with_notes", "write_mesh"]
+
+_READERS: dict[str, Callable[[bytes, Path], Contents]] = {
+    "off": read_off,
+    "obj": read_obj,
+    "ply": read_ply,
+    "stl": read_stl,
+    "glb": read_glb,
+    "tosca": lambda data, path: read_tosca(path),
+}
+
+
+def read_mesh(path: str | os.PathLike[str]) -> Mesh:
+    """The mesh in an OFF, OBJ, PLY, STL, GLB or TOSCA .vert/.tri file, vertices in the order of the file.
+
+    The content decides the format, not the name. Larger polygons are split into triangles, STL corners at equal
+    positions are welded; `read_with_notes` tells whether that happened. Raises `FormatError` or `MeshError` naming
+    the file and line, and `OSError` for a path that can not be opened. No other file is ever opened.
+    """
+    return read_with_notes(path)[0]
+
+
+def read_with_notes(path: str | os.PathLike[str]) -> tuple[Mesh, list[Note]]:
+    """As `read_mesh`, with notes on what reading had to change: split polygons (W210), welded corners (W211)."""
+    path = Path(path)
+    if not path.suffix and not path.exists() and tosca_paths(path)[0].exists():
+        contents = read_tosca(path)
+    else:
+        data = read_bytes(path)
+        contents = _READERS[sniff(data, path)](data, path)
+    try:
+        return Mesh(contents.vertices, contents.triangles), contents.notes
+    except MeshError as error:
+        raise type(error)(f"{path}: {error.args[0]}") from error
+
+
+def write_mesh(mesh: Mesh, path: str | os.PathLike[str]) -> None:
+    """Write `mesh` in the format of the suffix: .off, .obj, .ply, .stl, .glb, .vert or .tri (both files).
+
+    Each file is complete or untouched. OFF, OBJ, PLY and TOSCA keep every bit; STL and GLB are single precision.
+    """
+    path = Path(path)
+    for suffix, data in encode(mesh, path.suffix.lower()).items():
+        written_as = path if suffix == path.suffix.lower() else path.with_suffix(suffix)
+        with atomic_write(written_as) as stream:
+            stream.write(data)

@@ -1,0 +1,61 @@
+"""OBJ: the `v` and `f` lines; everything else (textures, normals, materials, groups) is passed over."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from geodesics.errors import BadPolygon, IndexOutOfRange, TruncatedFile
+from geodesics.io.text import Contents, Row, fan, numbers, rows, whole
+from geodesics.io.truncation import refuse_cut_index
+
+_DECLARED = re.compile(rb"^#[ \t]*(vertices|faces)[ \t]*:[ \t]*(\d{1,18})[ \t]*\r?$", re.IGNORECASE | re.MULTILINE)
+
+
+def read_obj(data: bytes, path: Path) -> Contents:
+    """A Wavefront OBJ file; vertices stay as they are listed, texture seams do not split them.
+
+    Counts in the comments `# Vertices: n` and `# Faces: m` (MeshLab and `write_mesh` leave them) are checked.
+    """
+    vertex_rows, polygons = [], []
+    for row in rows(re.sub(rb"\\\r?\n", b"  ", data), path):
+        if row.words[0] == "v":
+            vertex_rows.append(row)
+        elif row.words[0] == "f":
+            polygons.append((row, len(vertex_rows)))
+    vertices = numbers(vertex_rows, 1, path)
+    faces = [_corners(row, defined, len(vertices), path) for row, defined in polygons]
+    _check_declared(data, len(vertices), len(faces), path)
+    if (
+        polygons
+        and polygons[-1][0].line > (vertex_rows[-1].line if vertex_rows else 0)
+        and "/" not in polygons[-1][0].words[-1]
+    ):
+        refuse_cut_index(data, faces, len(vertices), 1, path)
+    triangles, notes = fan(faces)
+    return Contents(vertices, triangles, notes)
+
+
+def _corners(row: Row, defined: int, n_vertices: int, path: Path) -> list[int]:
+    """The corners of a face line; a negative index counts back from the vertices defined so far."""
+    place = f"{path}, line {row.line}"
+    if len(row.words) < 4:
+        raise BadPolygon(f"{place}: a face of {len(row.words) - 1} corners; a face has at least three")
+    face = []
+    for word in row.words[1:]:
+        written = whole(word.split("/", 1)[0], place)
+        index = written - 1 if written > 0 else defined + written
+        if written == 0 or not 0 <= index < n_vertices:
+            raise IndexOutOfRange(
+                f"{place}: index {word[:40]} refers outside the {n_vertices} vertices (counted from 1)"
+            )
+        face.append(index)
+    return face
+
+
+def _check_declared(data: bytes, n_vertices: int, n_faces: int, path: Path) -> None:
+    found = {b"vertices": n_vertices, b"faces": n_faces}
+    declared = {name.lower(): int(number) for name, number in _DECLARED.findall(data)}
+    for name, number in declared.items():
+        if found[name] < number:
+            raise TruncatedFile(f"{path}: {number} {name.decode()} are declared in a comment, {found[name]} found")

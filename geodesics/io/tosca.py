@@ -1,0 +1,35 @@
+"""TOSCA: a `.vert` file of positions and a `.tri` file of triangles counted from 1."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from geodesics.errors import BadPolygon, TruncatedFile
+from geodesics.io.opening import read_bytes
+from geodesics.io.text import Contents, fan, numbers, rows, vertex_index
+from geodesics.io.truncation import refuse_cut_index
+
+
+def tosca_paths(path: Path) -> tuple[Path, Path]:
+    """The two files of a TOSCA shape, from either of them or their common stem; case of the suffix as found."""
+    stem = path.with_suffix("") if path.suffix.lower() in (".vert", ".tri") else path
+    upper = path.suffix.isupper()
+    vert, tri = (".VERT", ".TRI") if upper else (".vert", ".tri")
+    return stem.with_name(stem.name + vert), stem.with_name(stem.name + tri)
+
+
+def read_tosca(path: Path) -> Contents:
+    """The shape of which `path` is the `.vert` file, the `.tri` file or the common stem."""
+    vert, tri = tosca_paths(path)
+    vertices = numbers(list(rows(read_bytes(vert), vert)), 0, vert)
+    data = read_bytes(tri)
+    polygons = []
+    for row in rows(data, tri):
+        place = f"{tri}, line {row.line}"
+        if len(row.words) != 3:
+            error = TruncatedFile if len(row.words) < 3 else BadPolygon
+            raise error(f"{place}: three indices expected, {len(row.words)} found")
+        polygons.append([vertex_index(word, len(vertices), 1, place) for word in row.words])
+    refuse_cut_index(data, polygons, len(vertices), 1, tri)
+    triangles, notes = fan(polygons)
+    return Contents(vertices, triangles, notes)
