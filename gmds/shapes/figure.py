@@ -1,0 +1,57 @@
+"""A posed body as a mesh that remembers where its vertices are on the undeformed body."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from geodesics import Mesh, SurfacePoints
+from gmds.shapes.skeleton import Body, Move
+from gmds.shapes.surface import fine_surface
+from gmds.triangulation import closest_points, collapse
+
+
+class Figure(Mesh):
+    """A `Mesh` with `rest` (n, 3), the places of its vertices on the undeformed body they share with other figures."""
+
+    rest: NDArray[np.float64]
+
+    def __init__(self, vertices: ArrayLike, faces: ArrayLike, rest: ArrayLike) -> None:
+        super().__init__(vertices, faces)
+        places = np.array(rest, dtype=np.float64)
+        places.setflags(write=False)
+        object.__setattr__(self, "rest", places)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return super().__getstate__() | {"rest": self.rest}
+
+
+def figure(body: Body, moves: Mapping[str, Move], *, spacing: float, n_vertices: int, seed: int) -> Figure:
+    """The body after `moves`, triangulated evenly in its new pose with `n_vertices` vertices.
+
+    Each vertex lies on the smooth surface: found on a fine posed mesh, carried back to the undeformed body, moved
+    onto its zero set, and posed again.
+    """
+    fine_rest, fine_faces = fine_surface(body, spacing, seed)
+    if not 50 <= n_vertices < len(fine_rest):
+        raise ValueError(f"n_vertices must be from 50 to {len(fine_rest) - 1}, not {n_vertices}")
+    posed = Mesh(body.pose(fine_rest, moves), fine_faces)
+    near, faces = collapse(posed, n_vertices)
+    rest = body.project(closest_points(posed, near).interpolate(fine_rest))
+    return Figure(body.pose(rest, moves), faces, rest)
+
+
+def truth(source: Figure, target: Figure, *, mirrored: bool = False) -> SurfacePoints:
+    """The point of the target that is the same place of the body, for each source vertex: (n,) points.
+
+    Both meshes carry their vertices' places on one undeformed smooth surface, so the source's place is looked up
+    among the target's triangles there. A place is on the smooth surface and a triangle is a chord below it, so the
+    answer is off by about (edge length)^2 / (8 curvature radius): under 3 % of an edge on the built-in shapes.
+    `mirrored` gives the left/right flipped counterpart (y -> -y of the undeformed body).
+    """
+    places = source.rest * ([1, -1, 1] if mirrored else 1)
+    found = closest_points(Mesh(target.rest, target.faces), places)
+    return SurfacePoints(target, found.face, found.barycentric)

@@ -1,0 +1,113 @@
+"""Even triangulations by edge collapse, and where points of one surface lie on another."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from geodesics import Mesh, SurfacePoints
+
+
+def closest_points(mesh: Mesh, positions: ArrayLike) -> SurfacePoints:
+    """The points of the mesh closest in space to `positions` (p, 3)."""
+    import igl
+
+    positions = np.ascontiguousarray(positions, dtype=np.float64)
+    face, foot = igl.point_mesh_squared_distance(positions, mesh.vertices, mesh.faces)[1:3]
+    face = np.asarray(face, dtype=np.int64).reshape(-1)
+    return SurfacePoints(mesh, face, _barycentric(mesh.vertices[mesh.faces[face]], np.asarray(foot)))
+
+
+def _barycentric(corners: NDArray[np.float64], point: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Weights (p, 3), >= 0 and summing to 1, of points (p, 3) in triangles (p, 3, 3); 1 at one corner if flat."""
+    u, v, w = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0], point - corners[:, 0]
+    uu, uv, vv = (u * u).sum(1), (u * v).sum(1), (v * v).sum(1)
+    uw, vw = (u * w).sum(1), (v * w).sum(1)
+    determinant = uu * vv - uv * uv
+    flat = determinant <= 1e-14 * uu * vv
+    safe = np.where(flat, 1, determinant)
+    b = np.where(flat, 0, (vv * uw - uv * vw) / safe)
+    c = np.where(flat, 0, (uu * vw - uv * uw) / safe)
+    weights = np.stack([1 - b - c, b, c], axis=1).clip(0)
+    return weights / weights.sum(axis=1, keepdims=True)
+
+
+def collapse(mesh: Mesh, n_vertices: int) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Vertices (about n_vertices, 3) and faces of an even triangulation near the mesh, shortest edges collapsed first.
+
+    Exactly `n_vertices` on a closed surface of genus 0. Afterwards edges are flipped towards Delaunay and vertices
+    moved to the middle of their neighbours; they lie near the surface, not on it.
+    """
+    import igl
+
+    closed_faces = mesh.n_faces - 2 * (mesh.n_vertices - n_vertices)
+    vertices, faces = np.asfortranarray(mesh.vertices), np.asfortranarray(mesh.faces.astype(np.int32))
+    v, f = igl.decimate(vertices, faces, int(closed_faces))[:2]
+    v, f = np.ascontiguousarray(v), np.ascontiguousarray(f, dtype=np.int64)
+    for _ in range(3):
+        f = flip_towards_delaunay(v, f)
+        v = closest_points(mesh, _towards_neighbours(v, f)).positions
+    return v, flip_towards_delaunay(v, f)
+
+
+def _towards_neighbours(v: NDArray[np.float64], f: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Interior vertices moved half way to the mean of the centres of their faces; boundary vertices stay."""
+    centres, count = np.zeros_like(v), np.bincount(f.ravel(), minlength=len(v))
+    np.add.at(centres, f.ravel(), np.repeat(v[f].mean(axis=1), 3, axis=0))
+    half = 0.5 * (v + centres / np.maximum(count, 1)[:, None])
+    half[boundary_vertices(f)] = v[boundary_vertices(f)]
+    return half
+
+
+def boundary_vertices(faces: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Vertices on edges with other than two faces, ascending."""
+    edges = np.sort(faces[:, [1, 2, 2, 0, 0, 1]].reshape(-1, 2), axis=1)
+    unique, count = np.unique(edges, axis=0, return_counts=True)
+    return np.unique(unique[count != 2])
+
+
+def flip_towards_delaunay(v: NDArray[np.float64], f: NDArray[np.int64], passes: int = 12) -> NDArray[np.int64]:
+    """The faces after flipping edges whose opposite angles add to more than a half-turn, keeping a manifold."""
+    for _ in range(passes):
+        flipped = _flip_once(v, f)
+        if flipped is None:
+            break
+        f = flipped
+    return f
+
+
+def _flip_once(v: NDArray[np.float64], f: NDArray[np.int64]) -> NDArray[np.int64] | None:
+    """One round of flips, no two in one triangle, worst edges first; None where there is nothing to flip."""
+    n = len(v)
+    start, end, apex = (np.roll(f, -k, axis=1).ravel() for k in (1, 2, 0))  # half-edge opposite corner k of face
+    face = np.repeat(np.arange(len(f)), 3)
+    key, twin_key = start * n + end, end * n + start
+    order = np.argsort(key)
+    slot = np.searchsorted(key[order], twin_key).clip(max=len(key) - 1)
+    twin = np.where(key[order][slot] == twin_key, order[slot], -1)
+    a, b, c, d = v[start], v[end], v[apex], v[apex[twin]]
+    excess = _angle(c, a, b) + _angle(d, a, b) - np.pi
+    known = np.concatenate([key, twin_key])
+    new_key = np.minimum(apex, apex[twin]) * n + np.maximum(apex, apex[twin])
+    fold = (np.cross(d - c, b - c) * np.cross(a - c, d - c)).sum(axis=1)  # both new triangles face the same way
+    good = (twin >= 0) & (start < end) & (excess > 1e-6) & (fold > 0) & ~np.isin(new_key, known)
+    candidates = np.flatnonzero(good)
+    candidates = candidates[np.argsort(-excess[candidates], kind="stable")]
+    candidates = candidates[np.sort(np.unique(new_key[candidates], return_index=True)[1])]
+    best = np.full(len(f), len(candidates))
+    rank = np.arange(len(candidates))
+    np.minimum.at(best, face[candidates], rank)
+    np.minimum.at(best, face[twin[candidates]], rank)
+    chosen = candidates[(best[face[candidates]] == rank) & (best[face[twin[candidates]]] == rank)]
+    if len(chosen) == 0:
+        return None
+    other = twin[chosen]
+    flipped = f.copy()
+    flipped[face[chosen]] = np.stack([apex[chosen], start[chosen], apex[other]], axis=1)
+    flipped[face[other]] = np.stack([apex[other], end[chosen], apex[chosen]], axis=1)
+    return flipped
+
+
+def _angle(at: NDArray[np.float64], p: NDArray[np.float64], q: NDArray[np.float64]) -> NDArray[np.float64]:
+    u, w = p - at, q - at
+    return np.arctan2(np.linalg.norm(np.cross(u, w), axis=1), (u * w).sum(axis=1))
