@@ -1,0 +1,11 @@
+"""One loss a file: `value(residuals)` and `step(jacobian, residuals, radius)`."""
+
+from gmds.losses.base import Loss, SmoothLoss
+from gmds.losses.huber import Huber
+from gmds.losses.least_squares import LeastSquares
+from gmds.losses.power import Power
+
+ALL = (LeastSquares, Huber, Power)
+"""Every loss, each to be made without arguments; the tests of losses run on all of them."""
+
+__all__ = ["ALL", "Huber", "LeastSquares", "Loss", "Power", "SmoothLoss"]

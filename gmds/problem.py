@@ -1,0 +1,148 @@
+"""What is asked: place the samples of one surface on another so that distances agree."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from geodesics import SurfacePoints
+from gmds.jacobian import Jacobian, scaled
+from gmds.pairwise import Distance, EmbeddedPairs, FieldPairs, pairwise
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class Problem:
+    """Generalised multidimensional scaling: find rho with d_Q(rho_i, rho_j) close to d_S(s_i, s_j) (sec. 5).
+
+    The residuals are r_ij = sqrt(w_ij) (d_S(s_i, s_j) - d_Q(rho_i, rho_j)) / unit, over the pairs i < j; `unit` is the
+    mean of d_S over them, so a residual of 0.05 is a twentieth of the mean distance. Pairs of samples that can not
+    reach each other are left out.
+
+    Parameters: distances of the two surfaces, p samples of the source, `weights` (p,) of the samples (w_ij = w_i w_j)
+    or (p, p) of the pairs, scaled to mean 1, and `pairs` (r, 2) for asking of some pairs only.
+    Raises `ValueError` when shapes disagree, fewer than two samples can reach each other, or a weight is negative.
+    """
+
+    source_points: SurfacePoints
+    target_distance: Distance
+    first: Index
+    second: Index
+    source_distances: Array
+    root_weights: Array
+    unit: float
+
+    def __init__(
+        self,
+        source_distance: Distance,
+        source_points: SurfacePoints,
+        target_distance: Distance,
+        weights: ArrayLike | None = None,
+        pairs: ArrayLike | None = None,
+    ) -> None:
+        count = len(source_points)
+        first, second = _pairs(pairs, count)
+        lengths = pairwise(source_distance, source_points).distances()[first, second]
+        reached = np.isfinite(lengths)
+        if not (lengths[reached] > 0).any():
+            raise ValueError("a problem needs at least two samples at a positive, finite distance from each other")
+        first, second, lengths = first[reached], second[reached], lengths[reached]
+        values = {
+            "source_points": source_points,
+            "target_distance": target_distance,
+            "first": first,
+            "second": second,
+            "source_distances": lengths,
+            "root_weights": np.sqrt(_pair_weights(weights, first, second, count)),
+            "unit": float(lengths.mean()),
+        }
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
+
+    def __len__(self) -> int:
+        """Number of samples p."""
+        return len(self.source_points)
+
+    def at(self, points: SurfacePoints) -> Placement:
+        """The problem seen from target points (p,), with residuals and their derivative."""
+        if len(points) != len(self):
+            raise ValueError(f"{len(self)} samples need {len(self)} target points, not {len(points)}")
+        if points.mesh is not self.target_distance.mesh:
+            raise ValueError("the points lie on another mesh than the target distance measures")
+        return Placement(self, points, pairwise(self.target_distance, points))
+
+    def compare(self, distances: Array) -> Array:
+        """Residuals (r,) of target distances (p, p); a pair out of reach counts as three mean distances apart."""
+        reached = distances[self.first, self.second]
+        reached = np.where(np.isposinf(reached), 3 * self.unit, reached)
+        return self.root_weights * (self.source_distances - reached) / self.unit
+
+
+@dataclass(frozen=True, eq=False)
+class Placement:
+    """The samples of a problem placed at `points` (p,) of the target."""
+
+    problem: Problem
+    points: SurfacePoints
+    pairs: EmbeddedPairs | FieldPairs
+
+    @functools.cached_property
+    def distances(self) -> Array:
+        """Distances between the target points, (p, p)."""
+        return self.pairs.distances()
+
+    @functools.cached_property
+    def residuals(self) -> Array:
+        """r_ij (r,), without dimension."""
+        return self.problem.compare(self.distances)
+
+    @functools.cached_property
+    def derivatives(self) -> Array:
+        """Of the residuals by the in-face displacement of their two points, (r, 2, 2)."""
+        first, second = self.problem.first, self.problem.second
+        slope = self.pairs.derivatives(self.distances)
+        raw = np.stack([slope[first, :, second], slope[second, :, first]], axis=1)
+        factor = np.where(np.isfinite(self.distances[first, second]), self.problem.root_weights, 0.0)
+        return raw * (-factor / self.problem.unit)[:, None, None]
+
+    @functools.cached_property
+    def jacobian(self) -> Jacobian:
+        """The derivative in steps measured in distances."""
+        problem = self.problem
+        weight = np.zeros(len(problem))
+        np.add.at(weight, problem.first, problem.root_weights**2)
+        np.add.at(weight, problem.second, problem.root_weights**2)
+        smallest = np.finfo(float).tiny
+        return scaled(problem.first, problem.second, self.derivatives, len(problem), np.maximum(weight, smallest))
+
+
+def _pairs(pairs: ArrayLike | None, count: int) -> tuple[Index, Index]:
+    """Index arrays i < j: all pairs, or those asked for."""
+    if pairs is None:
+        first, second = np.triu_indices(count, 1)
+        return first.astype(np.int64), second.astype(np.int64)
+    chosen = np.asarray(pairs)
+    if chosen.ndim != 2 or chosen.shape[1] != 2 or not np.issubdtype(chosen.dtype, np.integer):
+        raise ValueError(f"pairs must be whole numbers of shape (r, 2), not {chosen.dtype} of shape {chosen.shape}")
+    if chosen.size and (chosen.min() < 0 or chosen.max() >= count or (chosen[:, 0] == chosen[:, 1]).any()):
+        raise ValueError(f"pairs must join two different samples of 0 .. {count - 1}")
+    chosen = np.unique(np.sort(chosen, axis=1), axis=0).astype(np.int64)
+    return np.ascontiguousarray(chosen[:, 0]), np.ascontiguousarray(chosen[:, 1])
+
+
+def _pair_weights(weights: ArrayLike | None, first: Index, second: Index, count: int) -> Array:
+    """w_ij of each pair, scaled to mean 1."""
+    if weights is None:
+        return np.ones(len(first))
+    w = np.asarray(weights, dtype=np.float64)
+    if w.shape not in ((count,), (count, count)):
+        raise ValueError(f"weights must have shape ({count},) or ({count}, {count}), not {w.shape}")
+    pair = w[first] * w[second] if w.ndim == 1 else 0.5 * (w[first, second] + w[second, first])
+    if not np.isfinite(pair).all() or (pair < 0).any() or not pair.any():
+        raise ValueError("weights must be finite, not negative, and not all zero")
+    return pair / pair.mean()

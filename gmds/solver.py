@@ -1,0 +1,91 @@
+"""Embedding one surface in another: linearise, step, walk, accept or shrink."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics import SurfacePoints
+from geodesics.tracing import walk
+from gmds.losses import LeastSquares, Loss
+from gmds.problem import Placement, Problem
+from gmds.status import SolverError, Status
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """Where the samples ended: target points (p,), stress = loss of the residuals (r,), and how it came about.
+
+    `certificate` is the relative amount by which the linearised problem could still lower the stress within a trust
+    region of `certificate_radius` mean distances.
+    """
+
+    points: SurfacePoints
+    stress: float
+    residuals: Array
+    status: Status
+    certificate: float
+    certificate_radius: float
+    iterations: int
+
+
+def solve(
+    problem: Problem,
+    start: SurfacePoints,
+    loss: Loss | None = None,
+    *,
+    max_iterations: int = 50,
+    tolerance: float = 1e-3,
+    progress: Callable[[str, float], None] | None = None,
+) -> Solution:
+    """Lower the loss of the residuals from `start` (p,); least squares unless said.
+
+    Each of at most `max_iterations` rounds linearises the distances at the points, asks the loss for a step within
+    the trust region, walks the points straight across the faces, and keeps the step if the stress falls by at least
+    a tenth of what was predicted; else the region shrinks. Ends when the prediction falls below `tolerance` times the
+    stress. The stress never rises. Raises `SolverError` (E403) when it is not finite at the start.
+    """
+    loss = LeastSquares() if loss is None else loss
+    here = problem.at(start)
+    stress = loss.value(here.residuals)
+    if not np.isfinite(stress):
+        raise SolverError(f"the stress at the start is {stress}: a distance is not a number")
+    radius = first_radius = float(np.clip(2 * np.sqrt(np.mean(here.residuals**2)), 1e-6, 0.5))
+    status, iteration, predicted = Status.ITERATION_LIMIT, 0, np.inf
+    for iteration in range(1, max_iterations + 1):
+        step = loss.step(here.jacobian, here.residuals, radius)
+        predicted = stress - loss.value(here.residuals + here.jacobian.apply(step))
+        if not predicted > tolerance * stress:
+            status = Status.CONVERGED
+            break
+        there = _moved(problem, here, step)
+        gain = stress - loss.value(there.residuals)
+        radius = _resized(radius, gain / predicted)
+        if gain > 0:
+            here, stress = there, stress - gain
+        elif radius < 1e-4 * first_radius:
+            status = Status.STALLED
+            break
+        if progress is not None:
+            progress("embedding", iteration / max_iterations)
+    certificate = float(max(predicted, 0.0) / stress) if stress > 0 else 0.0
+    return Solution(here.points, stress, here.residuals, status, certificate, radius, iteration)
+
+
+def _moved(problem: Problem, here: Placement, step: Array) -> Placement:
+    """The placement after the step."""
+    return problem.at(walk(here.points, here.jacobian.displacement(step)))
+
+
+def _resized(radius: float, agreement: float) -> float:
+    """Twice the radius where the linearisation foretold the gain well, a quarter or half where it did not."""
+    if agreement > 0.75:
+        return 2 * radius
+    if agreement > 0.25:
+        return radius
+    return radius / 2 if agreement > 0 else radius / 4
