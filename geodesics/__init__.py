@@ -1,13 +1,89 @@
-"""Distances on one surface."""
+"""Distances on one surface: meshes, metrics, spectra, and the distances they define.
 
-from geodesics.curvature import angle_defect, gaussian_curvature
-from geodesics.delaunay import intrinsic_delaunay
-from geodesics.errors import FormatError, MeshError
-from geodesics.io import read_mesh, write_mesh
-from geodesics.laplacian import lumped_mass, stiffness
-from geodesics.mesh import Mesh
-from geodesics.metric import Metric, conformal
-from geodesics.metrics.embedded import embedded
-from geodesics.metrics.scale_invariant import scale_invariant
-from geodesics.points import SurfacePoints
-from geodesics.spectrum import Spectrum, eigenpairs
+Names are imported when first used, so `import geodesics` costs nothing.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from geodesics.curvature import angle_defect as angle_defect
+    from geodesics.curvature import gaussian_curvature as gaussian_curvature
+    from geodesics.delaunay import intrinsic_delaunay as intrinsic_delaunay
+    from geodesics.diffusion import BiharmonicDistance as BiharmonicDistance
+    from geodesics.diffusion import CommuteTimeDistance as CommuteTimeDistance
+    from geodesics.diffusion import DiffusionDistance as DiffusionDistance
+    from geodesics.errors import FormatError as FormatError
+    from geodesics.errors import MeshError as MeshError
+    from geodesics.fast_marching import GeodesicDistance as GeodesicDistance
+    from geodesics.io import read_mesh as read_mesh
+    from geodesics.io import write_mesh as write_mesh
+    from geodesics.laplacian import galerkin_mass as galerkin_mass
+    from geodesics.laplacian import lumped_mass as lumped_mass
+    from geodesics.laplacian import stiffness as stiffness
+    from geodesics.mesh import Mesh as Mesh
+    from geodesics.metric import Metric as Metric
+    from geodesics.metric import conformal as conformal
+    from geodesics.metrics.affine import affine as affine
+    from geodesics.metrics.embedded import embedded as embedded
+    from geodesics.metrics.equi_affine import equi_affine as equi_affine
+    from geodesics.metrics.min_curvature import min_curvature as min_curvature
+    from geodesics.metrics.scale_invariant import scale_invariant as scale_invariant
+    from geodesics.points import SurfacePoints as SurfacePoints
+    from geodesics.sampling import farthest_point_sampling as farthest_point_sampling
+    from geodesics.sampling import voronoi_cells as voronoi_cells
+    from geodesics.signatures import heat_kernel as heat_kernel
+    from geodesics.signatures import heat_kernel_signature as heat_kernel_signature
+    from geodesics.signatures import scale_invariant_heat_kernel_signature as scale_invariant_heat_kernel_signature
+    from geodesics.signatures import scaled_heat_kernel_signature as scaled_heat_kernel_signature
+    from geodesics.signatures import wave_kernel_signature as wave_kernel_signature
+    from geodesics.spectrum import Spectrum as Spectrum
+    from geodesics.spectrum import eigenpairs as eigenpairs
+
+# every public name, by the module it lives in
+_NAMES = {
+    "curvature": ("angle_defect", "gaussian_curvature"),
+    "delaunay": ("intrinsic_delaunay",),
+    "diffusion": ("BiharmonicDistance", "CommuteTimeDistance", "DiffusionDistance"),
+    "errors": ("FormatError", "MeshError"),
+    "fast_marching": ("GeodesicDistance",),
+    "io": ("read_mesh", "write_mesh"),
+    "laplacian": ("galerkin_mass", "lumped_mass", "stiffness"),
+    "mesh": ("Mesh",),
+    "metric": ("Metric", "conformal"),
+    "metrics.affine": ("affine",),
+    "metrics.embedded": ("embedded",),
+    "metrics.equi_affine": ("equi_affine",),
+    "metrics.min_curvature": ("min_curvature",),
+    "metrics.scale_invariant": ("scale_invariant",),
+    "points": ("SurfacePoints",),
+    "sampling": ("farthest_point_sampling", "voronoi_cells"),
+    "signatures": (
+        "heat_kernel",
+        "heat_kernel_signature",
+        "scale_invariant_heat_kernel_signature",
+        "scaled_heat_kernel_signature",
+        "wave_kernel_signature",
+    ),
+    "spectrum": ("Spectrum", "eigenpairs"),
+}
+_SUBMODULES = ("intrinsic", "metrics", "repair", "topology", "tracing")
+_HOME = {name: module for module, names in _NAMES.items() for name in names}
+
+__all__ = sorted(_HOME)
+
+
+def __getattr__(name: str) -> Any:
+    if name in _HOME:
+        value = getattr(importlib.import_module(f"geodesics.{_HOME[name]}"), name)
+        globals()[name] = value
+        return value
+    if name in _SUBMODULES or name in _NAMES:
+        return importlib.import_module(f"geodesics.{name}")
+    raise AttributeError(f"module 'geodesics' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

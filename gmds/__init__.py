@@ -1,0 +1,58 @@
+"""Placing one surface on another: generalised multidimensional scaling in scale-invariant geometry.
+
+Names are imported when first used, so `import gmds` costs nothing.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from gmds.correspondence import Candidate as Candidate
+    from gmds.correspondence import Correspondence as Correspondence
+    from gmds.correspondence import MatchStatus as MatchStatus
+    from gmds.evaluation import ErrorSummary as ErrorSummary
+    from gmds.evaluation import error_curve as error_curve
+    from gmds.evaluation import geodesic_error as geodesic_error
+    from gmds.evaluation import summary as summary
+    from gmds.losses import Huber as Huber
+    from gmds.losses import LeastSquares as LeastSquares
+    from gmds.losses import Minimax as Minimax
+    from gmds.losses import Power as Power
+    from gmds.matching import match as match
+    from gmds.problem import Problem as Problem
+    from gmds.solver import Solution as Solution
+    from gmds.solver import solve as solve
+    from gmds.status import Status as Status
+
+# every public name, by the module it lives in
+_NAMES = {
+    "correspondence": ("Candidate", "Correspondence", "MatchStatus"),
+    "evaluation": ("ErrorSummary", "error_curve", "geodesic_error", "summary"),
+    "losses": ("Huber", "LeastSquares", "Minimax", "Power"),
+    "matching": ("match",),
+    "problem": ("Problem",),
+    "solver": ("Solution", "solve"),
+    "status": ("Status",),
+}
+_SUBMODULES = ("benchmarking", "datasets", "deformations", "errors", "initialization", "pictures", "report", "shapes")
+_HOME = {name: module for module, names in _NAMES.items() for name in names}
+
+__all__ = sorted(_HOME)
+
+
+def __getattr__(name: str) -> Any:
+    if name in _HOME:
+        value = getattr(importlib.import_module(f"gmds.{_HOME[name]}"), name)
+        globals()[name] = value
+        return value
+    if name == "__version__":
+        return importlib.import_module("importlib.metadata").version("gmds")
+    if name in _SUBMODULES or name in _NAMES:
+        return importlib.import_module(f"gmds.{name}")
+    raise AttributeError(f"module 'gmds' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
