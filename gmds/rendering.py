@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geodesics import Mesh
+from gmds.triangulation import vertex_normals
 
 Array = NDArray[np.float64]
 
@@ -31,7 +32,7 @@ def render(mesh: Mesh, colours: Array, *, rotation: Array, pixels: int = 600, ov
     width, height = width - width % oversampling, height - height % oversampling
     xy = (camera[:, :2] - (low + high) / 2) * scale * [1, -1] + [width / 2, height / 2]
     pixel, face, weights = _visible(xy, camera[:, 2], mesh.faces, int(width), int(height))
-    normals = _vertex_normals(mesh) @ rotation.T
+    normals = vertex_normals(mesh) @ rotation.T
     image = np.ones((height * width, 3))
     image[pixel] = _shade(mesh.faces[face], weights, colours, normals)
     return image.reshape(height // oversampling, oversampling, width // oversampling, oversampling, 3).mean(axis=(1, 3))
@@ -58,14 +59,6 @@ def _visible(xy: Array, depth: Array, faces: NDArray[np.int64], width: int, heig
     order = np.lexsort(((weights * depth[faces[face]]).sum(axis=1), pixel))
     last = order[np.append(np.flatnonzero(np.diff(pixel[order])), len(order) - 1)] if len(order) else order
     return pixel[last], face[last], weights[last]
-
-
-def _vertex_normals(mesh: Mesh) -> Array:
-    a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
-    normals = np.zeros_like(mesh.vertices)
-    for k in range(3):
-        np.add.at(normals, mesh.faces[:, k], np.cross(b - a, c - a))
-    return normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
 
 
 def _shade(corners: NDArray[np.int64], weights: Array, colours: Array, normals: Array) -> Array:

@@ -6,33 +6,30 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from geodesics import Mesh, SurfacePoints
+from geodesics.topology import boundary_vertices
+from gmds.algebra import closest_on_triangles
+
+Array = NDArray[np.float64]
+Faces = NDArray[np.int64]
 
 
 def closest_points(mesh: Mesh, positions: ArrayLike) -> SurfacePoints:
     """The points of the mesh closest in space to `positions` (p, 3)."""
-    import igl
-
-    positions = np.ascontiguousarray(positions, dtype=np.float64)
-    face, foot = igl.point_mesh_squared_distance(positions, mesh.vertices, mesh.faces)[1:3]
-    face = np.asarray(face, dtype=np.int64).reshape(-1)
-    return SurfacePoints(mesh, face, _barycentric(mesh.vertices[mesh.faces[face]], np.asarray(foot)))
+    face, weights, _ = closest_on_triangles(np.asarray(positions, dtype=np.float64), mesh.vertices, mesh.faces)
+    return SurfacePoints(mesh, face, weights)
 
 
-def _barycentric(corners: NDArray[np.float64], point: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Weights (p, 3), >= 0 and summing to 1, of points (p, 3) in triangles (p, 3, 3); 1 at one corner if flat."""
-    u, v, w = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0], point - corners[:, 0]
-    uu, uv, vv = (u * u).sum(1), (u * v).sum(1), (v * v).sum(1)
-    uw, vw = (u * w).sum(1), (v * w).sum(1)
-    determinant = uu * vv - uv * uv
-    flat = determinant <= 1e-14 * uu * vv
-    safe = np.where(flat, 1, determinant)
-    b = np.where(flat, 0, (vv * uw - uv * vw) / safe)
-    c = np.where(flat, 0, (uu * vw - uv * uw) / safe)
-    weights = np.stack([1 - b - c, b, c], axis=1).clip(0)
-    return weights / weights.sum(axis=1, keepdims=True)
+def vertex_normals(mesh: Mesh) -> Array:
+    """Unit normals at the vertices (n, 3), faces weighted by area; zero where the faces cancel."""
+    a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
+    normals = np.zeros_like(mesh.vertices)
+    for k in range(3):
+        np.add.at(normals, mesh.faces[:, k], np.cross(b - a, c - a))
+    length = np.linalg.norm(normals, axis=1, keepdims=True)
+    return normals / np.where(length > 0, length, 1)
 
 
-def collapse(mesh: Mesh, n_vertices: int) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def collapse(mesh: Mesh, n_vertices: int) -> tuple[Array, Faces]:
     """Vertices (about n_vertices, 3) and faces of an even triangulation near the mesh, shortest edges collapsed first.
 
     Exactly `n_vertices` on a closed surface of genus 0. Afterwards edges are flipped towards Delaunay and vertices
@@ -44,29 +41,21 @@ def collapse(mesh: Mesh, n_vertices: int) -> tuple[NDArray[np.float64], NDArray[
     vertices, faces = np.asfortranarray(mesh.vertices), np.asfortranarray(mesh.faces.astype(np.int32))
     v, f = igl.decimate(vertices, faces, int(closed_faces))[:2]
     v, f = np.ascontiguousarray(v), np.ascontiguousarray(f, dtype=np.int64)
+    inside = ~boundary_vertices(Mesh(v, f))
     for _ in range(3):
         f = flip_towards_delaunay(v, f)
-        v = closest_points(mesh, _towards_neighbours(v, f)).positions
+        v[inside] = closest_points(mesh, _towards_neighbours(v, f)[inside]).positions
     return v, flip_towards_delaunay(v, f)
 
 
-def _towards_neighbours(v: NDArray[np.float64], f: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Interior vertices moved half way to the mean of the centres of their faces; boundary vertices stay."""
+def _towards_neighbours(v: Array, f: Faces) -> Array:
+    """Vertices moved half way to the mean of the centres of their faces."""
     centres, count = np.zeros_like(v), np.bincount(f.ravel(), minlength=len(v))
     np.add.at(centres, f.ravel(), np.repeat(v[f].mean(axis=1), 3, axis=0))
-    half = 0.5 * (v + centres / np.maximum(count, 1)[:, None])
-    half[boundary_vertices(f)] = v[boundary_vertices(f)]
-    return half
+    return 0.5 * (v + centres / np.maximum(count, 1)[:, None])
 
 
-def boundary_vertices(faces: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Vertices on edges with other than two faces, ascending."""
-    edges = np.sort(faces[:, [1, 2, 2, 0, 0, 1]].reshape(-1, 2), axis=1)
-    unique, count = np.unique(edges, axis=0, return_counts=True)
-    return np.unique(unique[count != 2])
-
-
-def flip_towards_delaunay(v: NDArray[np.float64], f: NDArray[np.int64], passes: int = 12) -> NDArray[np.int64]:
+def flip_towards_delaunay(v: Array, f: Faces, passes: int = 12) -> Faces:
     """The faces after flipping edges whose opposite angles add to more than a half-turn, keeping a manifold."""
     for _ in range(passes):
         flipped = _flip_once(v, f)
@@ -76,7 +65,7 @@ def flip_towards_delaunay(v: NDArray[np.float64], f: NDArray[np.int64], passes: 
     return f
 
 
-def _flip_once(v: NDArray[np.float64], f: NDArray[np.int64]) -> NDArray[np.int64] | None:
+def _flip_once(v: Array, f: Faces) -> Faces | None:
     """One round of flips, no two in one triangle, worst edges first; None where there is nothing to flip."""
     n = len(v)
     start, end, apex = (np.roll(f, -k, axis=1).ravel() for k in (1, 2, 0))  # half-edge opposite corner k of face
@@ -108,6 +97,6 @@ def _flip_once(v: NDArray[np.float64], f: NDArray[np.int64]) -> NDArray[np.int64
     return flipped
 
 
-def _angle(at: NDArray[np.float64], p: NDArray[np.float64], q: NDArray[np.float64]) -> NDArray[np.float64]:
+def _angle(at: Array, p: Array, q: Array) -> Array:
     u, w = p - at, q - at
     return np.arctan2(np.linalg.norm(np.cross(u, w), axis=1), (u * w).sum(axis=1))

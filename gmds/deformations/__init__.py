@@ -1,0 +1,33 @@
+"""Known deformations with known truth, one a file.
+
+Each takes a `Mesh` and gives the deformed `Mesh` with the truth: one point of the new mesh (`SurfacePoints`) per vertex
+of the old one. `compose` chains them. Random choices take a seed and repeat exactly.
+"""
+
+from gmds.deformations.bending import bending
+from gmds.deformations.global_scale import global_scale
+from gmds.deformations.gluing import gluing
+from gmds.deformations.holes import holes
+from gmds.deformations.local_scaling import achieved_log_scale, branch_log_scale, local_scaling
+from gmds.deformations.noise import noise
+from gmds.deformations.remeshing import remeshing
+from gmds.deformations.shot_noise import shot_noise
+from gmds.deformations.similarity import similarity
+from gmds.deformations.truths import Deformation, carried, compose
+
+__all__ = [
+    "Deformation",
+    "achieved_log_scale",
+    "bending",
+    "branch_log_scale",
+    "carried",
+    "compose",
+    "global_scale",
+    "gluing",
+    "holes",
+    "local_scaling",
+    "noise",
+    "remeshing",
+    "shot_noise",
+    "similarity",
+]

@@ -1,0 +1,37 @@
+"""Another pose: limbs bent without stretching, as nearly as can be."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from geodesics import Mesh, SurfacePoints
+from gmds.deformations.extremities import edge_distances, extremities
+from gmds.deformations.fitting import fit
+from gmds.deformations.truths import moved
+
+
+def bending(mesh: Mesh, angle: float = 30.0, *, count: int = 3, rng: int = 0) -> tuple[Mesh, SurfacePoints]:
+    """The mesh with up to `count` limbs turned by `angle` degrees about random axes, and where its vertices went.
+
+    The outer part of each limb is turned about the limb's middle; the rest follows with as little change of
+    edge lengths as possible (`fit`).
+    """
+    random = np.random.default_rng(rng)
+    tips, middle = extremities(mesh)
+    chosen = random.permutation(tips)[:count]
+    from_middle = edge_distances(mesh, np.array([middle]))[0]
+    reach = from_middle[tips].min() if len(tips) else 0.0
+    handles = [np.flatnonzero(from_middle <= 0.3 * reach)]
+    places = [mesh.vertices[handles[0]]]
+    for tip, distance in zip(chosen, edge_distances(mesh, chosen), strict=True):
+        length = distance[middle]
+        outer = np.flatnonzero(distance <= 0.25 * length)
+        band = np.flatnonzero(np.abs(distance / length - 0.45) < 0.05)
+        pivot = mesh.vertices[band if len(band) else [tip]].mean(axis=0)
+        axis = random.standard_normal(3)
+        turn = Rotation.from_rotvec(np.radians(angle) * axis / np.linalg.norm(axis))
+        handles.append(outer)
+        places.append(pivot + turn.apply(mesh.vertices[outer] - pivot))
+    everyone, first = np.unique(np.concatenate(handles), return_index=True)
+    return moved(mesh, fit(mesh, np.zeros(mesh.n_vertices), everyone, np.concatenate(places)[first], iterations=60))

@@ -1,0 +1,35 @@
+"""Pieces cut out."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geodesics import Mesh, SurfacePoints, intrinsic
+from geodesics.topology import vertex_components
+from gmds.deformations.extremities import edge_distances
+from gmds.triangulation import closest_points
+
+
+def holes(mesh: Mesh, count: int = 5, *, radius: float = 0.05, rng: int = 0) -> tuple[Mesh, SurfacePoints]:
+    """The mesh without the vertices nearer than `radius` sqrt(area) to `count` random ones; radius 0 cuts single rings.
+
+    Only the largest connected piece is kept. Vertices that are left keep their order and their truth is exact; a
+    lost vertex gets the point of the rest closest in space, at a distance from its own place that says that it is lost.
+    Raises ValueError when nothing is left.
+    """
+    area = intrinsic.areas(intrinsic.squared_lengths(mesh.vertices, mesh.faces)).sum()
+    random = np.random.default_rng(rng)
+    centres = random.permutation(mesh.n_vertices)[:count]
+    distance = edge_distances(mesh, centres).min(axis=0) if count else np.full(mesh.n_vertices, np.inf)
+    faces = mesh.faces[(distance > radius * np.sqrt(area))[mesh.faces].all(axis=1)]
+    if len(faces) == 0:
+        raise ValueError(f"{count} holes of radius {radius} leave nothing; ask for fewer or smaller ones")
+    label = vertex_components(Mesh(mesh.vertices, faces))[faces[:, 0]]
+    faces = faces[label == np.bincount(label).argmax()]
+    kept, renumbered = np.unique(faces, return_inverse=True)
+    result = Mesh(mesh.vertices[kept], renumbered.reshape(-1, 3))
+    truth = closest_points(result, mesh.vertices)
+    face, barycentric = truth.face.copy(), truth.barycentric.copy()
+    exact = SurfacePoints.at_vertices(result, np.arange(result.n_vertices))
+    face[kept], barycentric[kept] = exact.face, exact.barycentric
+    return result, SurfacePoints(result, face, barycentric)

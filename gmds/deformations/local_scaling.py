@@ -1,0 +1,57 @@
+"""Parts that grow and shrink: an isotropic, inhomogeneous field of scale."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from geodesics import Mesh, MeshError, SurfacePoints, intrinsic
+from gmds.deformations.extremities import edge_distances, extremities
+from gmds.deformations.fitting import fit
+from gmds.deformations.truths import moved
+
+Array = NDArray[np.float64]
+
+
+def local_scaling(mesh: Mesh, log_scale: ArrayLike) -> tuple[Mesh, SurfacePoints]:
+    """The mesh with edge ij as nearly l_ij exp((u_i + u_j) / 2) long as space allows, and where its vertices went.
+
+    `log_scale` u (n,) is the natural logarithm of the wanted scale at each vertex. No surface in space has exactly
+    these lengths in general: `achieved_log_scale` measures what came of it. A constant u is a similarity, exactly.
+    Raises `MeshError` when u has another shape or is not finite.
+    """
+    u = np.asarray(log_scale, dtype=np.float64)
+    if u.shape != (mesh.n_vertices,) or not np.isfinite(u).all():
+        raise MeshError(f"log_scale must be {mesh.n_vertices} finite numbers, one per vertex; its shape is {u.shape}")
+    centre = mesh.vertices.mean(axis=0)
+    base = u.mean()  # the uniform part is applied exactly, the fit sees only the differences
+    none = np.zeros(0, dtype=np.int64)
+    shape = fit(mesh, u - base, none, np.zeros((0, 3)), iterations=200)
+    return moved(mesh, centre + np.exp(base) * (shape - centre))
+
+
+def achieved_log_scale(before: Mesh, after: Mesh) -> Array:
+    """Half the logarithm of the growth of the area around each vertex (n,), for meshes with the same faces."""
+    if not np.array_equal(before.faces, after.faces):
+        raise MeshError("the two meshes must have the same faces")
+    ring = [
+        np.bincount(m.faces.ravel(), np.repeat(intrinsic.areas(intrinsic.squared_lengths(m.vertices, m.faces)), 3))
+        for m in (before, after)
+    ]
+    return 0.5 * np.log(ring[1] / ring[0])
+
+
+def branch_log_scale(mesh: Mesh, factor: float, *, count: int = 2, reach: float = 0.5, rng: int = 0) -> Array:
+    """A smooth field u (n,): `count` extremities grow by `factor`, every second shrinks by it.
+
+    The field falls from its full value at an extremity to zero over `reach` times the distance to the middle of the
+    surface. Extremities are chosen at random from those found.
+    """
+    tips, middle = extremities(mesh)
+    chosen = np.random.default_rng(rng).permutation(tips)[:count]
+    u = np.zeros(mesh.n_vertices)
+    for sign, tip in zip(np.resize([1, -1], len(chosen)), chosen, strict=True):
+        distance = edge_distances(mesh, np.array([tip]))[0]
+        t = (distance / (reach * distance[middle])).clip(0.5, 1.5) - 0.5
+        u += sign * np.log(factor) * (1 - t * t * (3 - 2 * t))
+    return u

@@ -1,0 +1,21 @@
+"""Noise on every vertex."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geodesics import Mesh, SurfacePoints, intrinsic
+from gmds.deformations.truths import moved
+from gmds.triangulation import vertex_normals
+
+
+def noise(mesh: Mesh, strength: float = 0.2, *, rng: int = 0) -> tuple[Mesh, SurfacePoints]:
+    """Vertices moved along their normals by Gaussian noise, standard deviation `strength` mean edge lengths."""
+    step = strength * mean_edge_length(mesh)
+    height = np.random.default_rng(rng).normal(0, step, mesh.n_vertices)
+    return moved(mesh, mesh.vertices + height[:, None] * vertex_normals(mesh))
+
+
+def mean_edge_length(mesh: Mesh) -> float:
+    """The mean length of the edges, each counted once per face."""
+    return float(np.sqrt(intrinsic.squared_lengths(mesh.vertices, mesh.faces)).mean())

@@ -1,0 +1,42 @@
+"""The same surface cut into other triangles."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from geodesics import Mesh, MeshError, SurfacePoints
+from gmds.deformations.noise import mean_edge_length
+from gmds.triangulation import closest_points, collapse
+
+
+def remeshing(
+    mesh: Mesh, n_vertices: int | None = None, *, remesher: Callable[[Mesh], Mesh] | None = None, rng: int = 0
+) -> tuple[Mesh, SurfacePoints]:
+    """Another triangulation of the surface, and the points of it closest to the old vertices.
+
+    By default with about `n_vertices` (as many as before): the mesh is subdivided until it has four times as many,
+    its vertices are shaken along the surface, and the shortest edges collapse. A `remesher`, for instance
+    `geodesics.repair.remesh`, replaces all that. New triangles are chords of the old surface, so the truth is off by
+    (edge length)^2 / (8 curvature radius). Raises `MeshError` for a surface that is not a manifold.
+    """
+    if remesher is not None:
+        result = remesher(mesh)
+        return result, closest_points(result, mesh.vertices)
+    import igl
+
+    wanted = mesh.n_vertices if n_vertices is None else n_vertices
+    if not igl.is_edge_manifold(mesh.faces)[0] or not np.all(igl.is_vertex_manifold(mesh.faces)):
+        raise MeshError("only a manifold surface can be remeshed here; repair it first, see `gmds repair`")
+    if wanted < 12:
+        raise MeshError(f"n_vertices must be at least 12, not {wanted}")
+    vertices, faces = mesh.vertices, mesh.faces
+    while len(vertices) < 4 * wanted:
+        vertices, faces = igl.upsample(vertices, faces, 1)
+    fine = Mesh(vertices, faces)
+    shaken = fine.vertices + np.random.default_rng(rng).normal(0, 0.2 * mean_edge_length(fine), fine.vertices.shape)
+    fine = Mesh(closest_points(mesh, shaken).positions, fine.faces)
+    new, faces = collapse(fine, wanted)
+    result = Mesh(new, faces)
+    return result, closest_points(result, mesh.vertices)
