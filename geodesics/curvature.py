@@ -1,13 +1,15 @@
-"""Curvature of a triangle mesh."""
+"""Curvature of a triangle mesh at its vertices: to the letter of the paper, and smoothed so that remeshing keeps it."""
 
 from __future__ import annotations
 
 import numpy as np
 import scipy.sparse as sp
+import scipy.sparse.linalg as sla
 from numpy.typing import NDArray
 
 from geodesics import intrinsic
-from geodesics.delaunay import intrinsic_delaunay
+from geodesics.delaunay import IntrinsicTriangulation, intrinsic_delaunay
+from geodesics.laplacian import cotangent_matrix, vertex_areas, vertex_sums
 from geodesics.mesh import Mesh
 from geodesics.topology import boundary_vertices
 
@@ -15,21 +17,83 @@ Array = NDArray[np.float64]
 
 
 def angle_defect(mesh: Mesh) -> Array:
-    """2 pi (pi on the boundary) minus the angles around each vertex, shape (n,)."""
-    total = np.zeros(mesh.n_vertices)
+    """2 pi (pi on the boundary) minus the angles around each vertex, shape (n,), radians; 0 where there is no face.
+
+    The numerator of |K_i| below (4.5). Over a closed surface it sums to 2 pi times the Euler characteristic.
+    """
     theta = intrinsic.angles(intrinsic.squared_lengths(mesh.vertices, mesh.faces))
-    np.add.at(total, mesh.faces, theta)
     flat = np.where(boundary_vertices(mesh), np.pi, 2 * np.pi)
     flat[np.bincount(mesh.faces.ravel(), minlength=mesh.n_vertices) == 0] = 0
-    return flat - total
+    return flat - vertex_sums(mesh.faces, theta, mesh.n_vertices)
+
+
+def one_ring_areas(mesh: Mesh) -> Array:
+    """A_ii of (4.5): the area of all faces that contain the vertex, shape (n,), units of length^2."""
+    area = intrinsic.areas(intrinsic.squared_lengths(mesh.vertices, mesh.faces))
+    return vertex_sums(mesh.faces, area, mesh.n_vertices)
+
+
+def one_ring_curvature(mesh: Mesh) -> Array:
+    """K_i = 3 (2 pi - sum of angles) / A_ii below (4.5), to the letter and signed, shape (n,), units of 1 / length^2.
+
+    Dominated by the noise of the mesh: prefer `gaussian_curvature`. 0 on the boundary and at vertices without area.
+    """
+    defect = np.where(boundary_vertices(mesh), 0.0, angle_defect(mesh))
+    area = one_ring_areas(mesh)
+    return np.divide(3 * defect, area, out=np.zeros_like(area), where=area > 0)
 
 
 def gaussian_curvature(mesh: Mesh, smoothing: float = 3e-4) -> Array:
-    """Angle defect smoothed by one implicit heat step, (A + tau W) K = defect, tau = smoothing * area; shape (n,)."""
-    from geodesics.laplacian import cotangent_matrix, vertex_areas
+    """Gaussian curvature K (n,) in units of 1 / length^2: the angle defect after one implicit heat step.
 
-    defect = np.where(boundary_vertices(mesh), 0.0, angle_defect(mesh))
+    (A + tau W) K = defect with tau = smoothing * area. The boundary has no curvature of its own and takes over that
+    of its neighbourhood.
+    """
+    interior = ~boundary_vertices(mesh)
+    return smoothed_density(intrinsic_delaunay(mesh), np.where(interior, angle_defect(mesh), 0.0), interior, smoothing)
+
+
+def mean_curvature(mesh: Mesh, smoothing: float = 3e-4) -> Array:
+    """Mean curvature H (n,) in units of 1 / length, positive where the surface bends away from its normals (a sphere).
+
+    2 H n is the Laplacian of position (W x = 2 A H n), smoothed as `gaussian_curvature`; needs oriented faces.
+    """
     triangulation = intrinsic_delaunay(mesh)
-    mass = vertex_areas(triangulation, mesh.n_vertices)
-    system = sp.diags(mass) + smoothing * mass.sum() * cotangent_matrix(triangulation, mesh.n_vertices)
-    return sp.linalg.spsolve(system.tocsc(), defect)
+    laplacian = cotangent_matrix(triangulation, mesh.n_vertices) @ (mesh.vertices - mesh.vertices.mean(axis=0))
+    interior = ~boundary_vertices(mesh)
+    bend = np.where(interior, 0.5 * (laplacian * vertex_normals(mesh)).sum(axis=1), 0.0)
+    return smoothed_density(triangulation, bend, interior, smoothing)
+
+
+def principal_curvatures(mesh: Mesh, smoothing: float = 3e-4) -> tuple[Array, Array]:
+    """Principal curvatures k1 >= k2, each (n,) in units of 1 / length: H +- sqrt(H^2 - K), the root cut off at 0."""
+    h = mean_curvature(mesh, smoothing)
+    root = np.sqrt(np.maximum(h**2 - gaussian_curvature(mesh, smoothing), 0))
+    return h + root, h - root
+
+
+def vertex_normals(mesh: Mesh) -> Array:
+    """Unit normals (n, 3), the normals of the faces around each vertex weighted by angle; 0 where there are none."""
+    a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
+    normal = np.cross(b - a, c - a)
+    normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), np.finfo(float).tiny)
+    theta = intrinsic.angles(intrinsic.squared_lengths(mesh.vertices, mesh.faces))
+    total = np.stack([vertex_sums(mesh.faces, theta * normal[:, [k]], mesh.n_vertices) for k in range(3)], axis=1)
+    size = np.linalg.norm(total, axis=1, keepdims=True)
+    return total / np.where(size > 0, size, 1)
+
+
+def smoothed_density(
+    triangulation: IntrinsicTriangulation, amounts: Array, interior: NDArray[np.bool_], smoothing: float
+) -> Array:
+    """Density (n,) of amounts per vertex (n,) after one implicit heat step of time smoothing * area.
+
+    Where `interior` is False nothing was measured, and the value comes from the neighbours alone.
+    """
+    area = vertex_areas(triangulation, len(amounts))
+    used = np.flatnonzero(area > 0)
+    weight = np.where(interior, area, 1e-9 * area)[used]  # a little, or a part that is all boundary is singular
+    w = cotangent_matrix(triangulation, len(amounts))[used][:, used]
+    density = np.zeros(len(amounts))
+    density[used] = sla.splu((sp.diags(weight) + smoothing * area.sum() * w).tocsc()).solve(amounts[used])
+    return density

@@ -1,4 +1,8 @@
-"""Triangle formulas that need only squared edge lengths (m, 3); edge k is opposite corner k."""
+"""Triangle formulas that need only squared edge lengths (m, 3); edge k is opposite corner k.
+
+Three lengths and a metric tensor say the same thing: in the coordinates (u, v) of a face, its barycentric weights of
+corners 1 and 2, the tensor g_ij = <S_i, S_j> of sec. 2 is constant and S_1, S_2 are the edges from corner 0.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+_SLIVER = 1e-8  # triangles are taken to be at least this times as high as long: bounds every cotangent by 1 / _SLIVER
 
 
 def squared_lengths(vertices: Array, faces: NDArray[np.int64]) -> Array:
@@ -22,11 +27,29 @@ def areas(l_sq: Array) -> Array:
 
 
 def cotangents(l_sq: Array) -> Array:
-    """Cotangents (m, 3) of the corner angles: cot_k = (sum of the other two - l_k^2) / (4 area)."""
-    return (l_sq.sum(1, keepdims=True) - 2 * l_sq) / (4 * np.maximum(areas(l_sq), 1e-300))[:, None]
+    """Cotangents (m, 3) of the corner angles: cot_k = (sum of the other two - l_k^2) / (4 area); finite on slivers."""
+    area = np.maximum(areas(l_sq), 0.5 * _SLIVER * l_sq.max(axis=1))
+    return (l_sq.sum(1, keepdims=True) - 2 * l_sq) / (4 * np.where(area > 0, area, 1))[:, None]
 
 
 def angles(l_sq: Array) -> Array:
     """Corner angles (m, 3) in radians."""
     opposite_sum = l_sq.sum(1, keepdims=True) - 2 * l_sq
     return np.arctan2(4 * areas(l_sq)[:, None], opposite_sum)
+
+
+def tensor_from_lengths(l_sq: Array) -> Array:
+    """The metric tensor g_ij (m, 2, 2) whose triangle has these squared edge lengths (m, 3)."""
+    g12 = 0.5 * (l_sq[:, 1] + l_sq[:, 2] - l_sq[:, 0])
+    return np.stack([l_sq[:, 2], g12, g12, l_sq[:, 1]], axis=1).reshape(-1, 2, 2)
+
+
+def lengths_from_tensor(tensor: Array) -> Array:
+    """Squared edge lengths (m, 3) of the triangles with this metric tensor (m, 2, 2)."""
+    g11, g12, g22 = tensor[:, 0, 0], tensor[:, 0, 1], tensor[:, 1, 1]
+    return np.stack([g11 - 2 * g12 + g22, g22, g11], axis=1)
+
+
+def conformal_lengths(l_sq: Array, faces: NDArray[np.int64], factor: Array) -> Array:
+    """Squared edge lengths (m, 3) in rho * g, rho (n,) per vertex: one slowness a face, so triangles stay triangles."""
+    return l_sq * np.sqrt(factor)[faces].mean(axis=1, keepdims=True) ** 2

@@ -1,0 +1,53 @@
+"""The equi-affine metric."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics import intrinsic
+from geodesics.curvature import vertex_normals
+from geodesics.laplacian import vertex_sums
+from geodesics.mesh import Mesh
+from geodesics.metric import Metric
+
+Array = NDArray[np.float64]
+
+
+def equi_affine(mesh: Mesh, *, regularisation: float = 0.05) -> Metric:
+    """The metric |K|^(-1/4) b_ij (sec. 2), projected to positive definite; invariant to volume-preserving affine maps.
+
+    b_ij is the second fundamental form of each face, from the normals at its corners. Raviv et al. 2011. The projection
+    takes absolute principal curvatures, at least `regularisation` / radius of a sphere of the same area, so the
+    invariance is that of convex surfaces; saddles keep it only approximately.
+    """
+    return metric_of_tensor(mesh, equi_affine_tensor(mesh, regularisation))
+
+
+def equi_affine_tensor(mesh: Mesh, regularisation: float = 0.05) -> Array:
+    """|K|^(-1/4) |b_ij| per face (m, 2, 2), in barycentric coordinates; units of length^(3/2)."""
+    v, faces = mesh.vertices, mesh.faces
+    edge = np.stack([v[faces[:, 1]] - v[faces[:, 0]], v[faces[:, 2]] - v[faces[:, 0]]], axis=1)
+    area = 0.5 * np.linalg.norm(np.cross(edge[:, 0], edge[:, 1]), axis=1)
+    normal = vertex_normals(mesh)
+    turn = np.stack([normal[faces[:, 1]] - normal[faces[:, 0]], normal[faces[:, 2]] - normal[faces[:, 0]]], axis=1)
+    form = turn @ edge.transpose(0, 2, 1)
+    form = 0.5 * (form + form.transpose(0, 2, 1))
+
+    length = np.sqrt(area.sum() / (4 * np.pi))
+    first = edge @ edge.transpose(0, 2, 1)
+    first += 1e-12 * np.trace(first, axis1=1, axis2=2)[:, None, None] * np.eye(2)  # a sliver still has an inverse
+    first += (1e-12 * length) ** 2 * np.eye(2)
+    root = np.linalg.cholesky(first)
+    inverse = np.linalg.inv(root)
+    curvature, direction = np.linalg.eigh(inverse @ form @ inverse.transpose(0, 2, 1))
+    curvature = np.maximum(np.abs(curvature), regularisation / length)
+    frame = root @ direction
+    positive = (frame * curvature[:, None, :]) @ frame.transpose(0, 2, 1)
+    return positive * (curvature.prod(axis=1) ** -0.25)[:, None, None]
+
+
+def metric_of_tensor(mesh: Mesh, tensor: Array) -> Metric:
+    """The metric with tensor (m, 2, 2) in the barycentric coordinates of each face; mass a third of the area around."""
+    l_sq = intrinsic.lengths_from_tensor(tensor)
+    return Metric(mesh, l_sq, vertex_sums(mesh.faces, intrinsic.areas(l_sq) / 3, mesh.n_vertices))
