@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import combinations
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -14,9 +16,7 @@ def icosphere(subdivisions: int = 3, radius: float = 1.0) -> Mesh:
     v = np.array([[s, t * golden, 0.0] for s in (-1, 1) for t in (-1, 1)])
     v = np.concatenate([v, v[:, [2, 0, 1]], v[:, [1, 2, 0]]])
     near = np.linalg.norm(v[:, None] - v, axis=2) < 2.1
-    triples = [
-        (i, j, k) for i in range(12) for j in range(i) for k in range(j) if near[i, j] and near[j, k] and near[i, k]
-    ]
+    triples = [t for t in combinations(range(12), 3) if all(near[i, j] for i, j in combinations(t, 2))]
     f = np.array([t if np.linalg.det(v[list(t)]) > 0 else t[::-1] for t in triples])
     v /= np.linalg.norm(v, axis=1, keepdims=True)
     for _ in range(subdivisions):
@@ -122,7 +122,7 @@ def tetrahedron() -> Mesh:
 def joined(*meshes: Mesh, gap: float = 5.0) -> Mesh:
     """Several meshes as the components of one, each moved `gap` further along x."""
     offsets = np.cumsum([0] + [m.n_vertices for m in meshes[:-1]])
-    vertices = [m.vertices + [gap * k, 0, 0] for k, m in enumerate(meshes)]
+    vertices = [m.vertices + np.array([gap * k, 0, 0]) for k, m in enumerate(meshes)]
     return Mesh(np.concatenate(vertices), np.concatenate([m.faces + o for m, o in zip(meshes, offsets, strict=True)]))
 
 
