@@ -166,7 +166,7 @@ class ExternalReference(FormatError):
 class MissingExtra(ImportError):
     """An optional dependency is not installed; the message names the extra."""
 
-    code = "E601"
+    code = "E602"
 
 
 class EigensolverFailed(RuntimeError):

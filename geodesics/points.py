@@ -7,16 +7,18 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from geodesics._memo import memoized
+from geodesics._validation import as_indices, as_vertices, as_weights
 from geodesics.errors import BadShape, IndexOutOfRange
 from geodesics.mesh import Mesh
-from geodesics._memo import memoized
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SurfacePoints:
     """Points on a mesh: face (p,) int64 and barycentric (p, 3) float64, weights >= 0 summing to 1.
 
-    Raises `MeshError` when a face does not exist or the shapes disagree.
+    Rounding errors in the weights are removed. Raises `MeshError` naming the point whose face does not exist (E105) or
+    whose weights are not finite, negative or of another sum (E115), and for arrays of the wrong shape (E108).
     """
 
     mesh: Mesh
@@ -24,13 +26,11 @@ class SurfacePoints:
     barycentric: NDArray[np.float64]
 
     def __init__(self, mesh: Mesh, face: ArrayLike, barycentric: ArrayLike) -> None:
-        f = np.array(face, dtype=np.int64).reshape(-1)
-        b = np.array(barycentric, dtype=np.float64)
-        if b.shape != (len(f), 3):
-            raise BadShape(f"barycentric must have shape ({len(f)}, 3), not {b.shape}")
-        bad = np.flatnonzero((f < 0) | (f >= mesh.n_faces))
-        if len(bad):
-            raise IndexOutOfRange(f"point {bad[0]} lies on face {f[bad[0]]}; the mesh has {mesh.n_faces} faces")
+        mesh = Mesh.from_object(mesh)
+        f = as_indices(face, mesh.n_faces, "point", "faces")
+        if f.ndim != 1:
+            raise BadShape(f"face must have shape (p,), one face per point, not {f.shape}")
+        b = as_weights(barycentric, len(f))
         f.setflags(write=False)
         b.setflags(write=False)
         object.__setattr__(self, "mesh", mesh)
@@ -40,21 +40,38 @@ class SurfacePoints:
     @classmethod
     def at_vertices(cls, mesh: Mesh, indices: ArrayLike) -> SurfacePoints:
         """The points at mesh vertices `indices` (p,); `MeshError` if one is on no face."""
-        indices = np.asarray(indices, dtype=np.int64).reshape(-1)
-        bad = np.flatnonzero((indices < 0) | (indices >= mesh.n_vertices))
-        if len(bad):
-            raise IndexOutOfRange(f"vertex {indices[bad[0]]} does not exist; the mesh has {mesh.n_vertices} vertices")
-        corner = _corner_of_vertex(mesh)[indices]
+        mesh = Mesh.from_object(mesh)
+        vertices = as_indices(indices, mesh.n_vertices, "point", "vertices").reshape(-1)
+        corner = _corner_of_vertex(mesh)[vertices]
         lonely = np.flatnonzero(corner < 0)
         if len(lonely):
-            raise IndexOutOfRange(f"vertex {indices[lonely[0]]} is on no face")
+            raise IndexOutOfRange(f"vertex {vertices[lonely[0]]} is on no face, so it is no point of the surface")
         return cls(mesh, corner // 3, np.eye(3)[corner % 3])
+
+    @classmethod
+    def closest(cls, mesh: Mesh, positions: ArrayLike) -> SurfacePoints:
+        """The points of the surface closest in space to `positions` (p, 3)."""
+        import igl
+
+        mesh = Mesh.from_object(mesh)
+        p = as_vertices(positions)
+        center, size = mesh.vertices.mean(axis=0), np.ptp(mesh.vertices, axis=0).max()
+        v = (mesh.vertices - center) / size  # a unit-sized copy: squared distances stay in range at any scale
+        _, face, foot = igl.point_mesh_squared_distance((p - center) / size, v, mesh.faces)
+        a, b, c = v[mesh.faces[face].T]
+        edges = np.stack([b - a, c - a], axis=2)
+        weights = (np.linalg.pinv(edges) @ (foot - a)[:, :, None])[:, :, 0].clip(0, 1)
+        first = (1 - weights.sum(axis=1, keepdims=True)).clip(0)
+        weights = np.hstack([first, weights])
+        return cls(mesh, face, weights / weights.sum(axis=1, keepdims=True))
 
     def __len__(self) -> int:
         return len(self.face)
 
     def __getitem__(self, index: ArrayLike | slice) -> SurfacePoints:
-        index = index if isinstance(index, slice) else np.atleast_1d(np.asarray(index))
+        if not isinstance(index, slice):
+            index = np.atleast_1d(np.asarray(index))
+            index = index if index.size else np.empty(0, dtype=np.int64)
         return SurfacePoints(self.mesh, self.face[index], self.barycentric[index])
 
     def __repr__(self) -> str:
@@ -67,7 +84,10 @@ class SurfacePoints:
 
     def interpolate(self, values: ArrayLike) -> NDArray[np.float64]:
         """Per-vertex values (n,) or (n, c), linearly interpolated at the points: (p,) or (p, c)."""
-        corners = np.asarray(values)[self.mesh.faces[self.face]]
+        values = np.asarray(values)
+        if values.ndim == 0 or len(values) != self.mesh.n_vertices:
+            raise BadShape(f"values must have one row per vertex, {self.mesh.n_vertices}, not shape {values.shape}")
+        corners = values[self.mesh.faces[self.face]]
         return np.einsum("pk,pk...->p...", self.barycentric, corners)
 
     def nearest_vertices(self) -> NDArray[np.int64]:

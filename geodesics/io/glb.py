@@ -25,7 +25,7 @@ def read_glb(data: bytes, path: Path) -> Contents:
     from trimesh import load
 
     try:
-        scene = load(BytesIO(data), file_type="glb", process=False, skip_materials=True)
+        scene: Any = load(BytesIO(data), file_type="glb", process=False, skip_materials=True)
         nodes = list(scene.graph.nodes_geometry)
         transform, name = scene.graph[nodes[0]]
         shape = scene.geometry[name]

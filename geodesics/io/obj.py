@@ -17,8 +17,9 @@ def read_obj(data: bytes, path: Path) -> Contents:
 
     Counts in the comments `# Vertices: n` and `# Faces: m` (MeshLab and `write_mesh` leave them) are checked.
     """
-    vertex_rows, polygons = [], []
+    vertex_rows, polygons, last = [], [], [""]
     for row in rows(re.sub(rb"\\\r?\n", b"  ", data), path):
+        last = row.words
         if row.words[0] == "v":
             vertex_rows.append(row)
         elif row.words[0] == "f":
@@ -26,11 +27,7 @@ def read_obj(data: bytes, path: Path) -> Contents:
     vertices = numbers(vertex_rows, 1, path)
     faces = [_corners(row, defined, len(vertices), path) for row, defined in polygons]
     _check_declared(data, len(vertices), len(faces), path)
-    if (
-        polygons
-        and polygons[-1][0].line > (vertex_rows[-1].line if vertex_rows else 0)
-        and "/" not in polygons[-1][0].words[-1]
-    ):
+    if last[0] == "f" and "/" not in last[-1]:
         refuse_cut_index(data, faces, len(vertices), 1, path)
     triangles, notes = fan(faces)
     return Contents(vertices, triangles, notes)

@@ -24,8 +24,8 @@ def read_stl(data: bytes, path: Path) -> Contents:
     elif b"\0" in data[:1024] or not data.rstrip()[-512:].lower().count(b"endsolid"):
         declared = int.from_bytes(data[80:84], "little")
         raise TruncatedFile(
-            f"{path}: neither binary STL ({declared} triangles need {84 + 50 * declared} bytes, the file has {len(data)}) "
-            "nor ASCII STL ending in endsolid"
+            f"{path}: neither binary STL ({declared} triangles need {84 + 50 * declared} bytes, "
+            f"the file has {len(data)}) nor ASCII STL ending in endsolid"
         )
     else:
         soup = _read_ascii(data, path)

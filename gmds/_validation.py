@@ -1,0 +1,90 @@
+"""The checks at the door of the matcher: landmarks, sample counts, names of options."""
+
+from __future__ import annotations
+
+import difflib
+import functools
+import inspect
+from collections.abc import Callable, Iterable
+from typing import Any, ParamSpec, TypeVar
+
+import numpy as np
+
+from geodesics import Mesh
+from gmds.landmarks import LandmarkError, check_landmarks, place_landmarks
+
+__all__ = [
+    "LandmarkError",
+    "SampleCountError",
+    "UnknownKey",
+    "check_keys",
+    "check_landmarks",
+    "check_sample_count",
+    "did_you_mean",
+    "place_landmarks",
+    "suggest_keywords",
+]
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+FEWEST_SAMPLES = 3
+
+
+class SampleCountError(ValueError):
+    """A number of samples outside the allowed range, which the message gives."""
+
+    code = "E401"
+
+    def __str__(self) -> str:
+        return f"{self.code}: {super().__str__()}"
+
+
+class UnknownKey(ValueError):
+    """A configuration key that does not exist; the message names the nearest one that does."""
+
+    code = "E601"
+
+    def __str__(self) -> str:
+        return f"{self.code}: {super().__str__()}"
+
+
+def check_sample_count(count: Any, mesh: Mesh) -> int:
+    """`count` as an int, from 3 to the number of vertices that lie on a face; else `SampleCountError` (E401)."""
+    most = len(np.unique(mesh.faces))
+    if isinstance(count, (bool, np.bool_)) or not isinstance(count, (int, np.integer)):
+        raise SampleCountError(f"n_samples must be a whole number from {FEWEST_SAMPLES} to {most}, not {count!r:.40}")
+    if not FEWEST_SAMPLES <= count <= most:
+        raise SampleCountError(
+            f"n_samples = {count} is outside the allowed range {FEWEST_SAMPLES} to {most} of {mesh!r}"
+        )
+    return int(count)
+
+
+def check_keys(given: Iterable[str], allowed: Iterable[str], place: str) -> None:
+    """`UnknownKey` (E601) for the first name in `given` that is not `allowed`, with the nearest that is."""
+    allowed = list(allowed)
+    for name in given:
+        if name not in allowed:
+            raise UnknownKey(f"{place} has no key {name!r}{did_you_mean(name, allowed)}")
+
+
+def did_you_mean(name: str, allowed: Iterable[str]) -> str:
+    """The end of an error sentence: the nearest allowed name, or all of them."""
+    allowed = list(allowed)
+    near = difflib.get_close_matches(name, allowed, n=1)
+    return f"; did you mean {near[0]!r}?" if near else f"; there are {', '.join(allowed)}"
+
+
+def suggest_keywords(function: Callable[P, R]) -> Callable[P, R]:
+    """`function`, whose `TypeError` for an unknown keyword names the nearest one that exists."""
+    keywords = [p.name for p in inspect.signature(function).parameters.values() if p.kind != p.VAR_KEYWORD]
+
+    @functools.wraps(function)
+    def checked(*args: P.args, **kwargs: P.kwargs) -> R:
+        for name in kwargs:
+            if name not in keywords:
+                raise TypeError(f"{function.__name__}() has no argument {name!r}{did_you_mean(name, keywords)}")
+        return function(*args, **kwargs)
+
+    return checked

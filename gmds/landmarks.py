@@ -1,0 +1,137 @@
+"""Landmarks: known corresponding points, in any of the forms people have them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics import Mesh, MeshError, SurfacePoints
+from geodesics.errors import Note
+
+FARTHEST_LANDMARK = 0.05  # of the diagonal of the bounding box
+
+
+class LandmarkError(ValueError):
+    """Landmarks that can not be used; `code` says why and the message says which.
+
+    E300 form, E301 no such vertex, E302 given twice, E303 unequal counts, E304 on no face, E305 off the surface.
+    """
+
+    def __init__(self, code: str, message: str) -> None:
+        super().__init__(code, message)
+        self.code = code
+
+    def __str__(self) -> str:
+        return f"{self.code}: {self.args[1]}"
+
+
+def check_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> tuple[SurfacePoints, SurfacePoints]:
+    """Corresponding points of both surfaces from what a user gives; raises `LandmarkError` (E300-E305).
+
+    `landmarks` is an array (k, 2) of vertex index pairs, or a pair (on source, on target) whose halves are vertex
+    indices (k,), positions in space (k, 3) that are moved to the closest surface point, or `SurfacePoints`.
+    Two nested lists of two indices each are read as two index pairs.
+    """
+    return place_landmarks(landmarks, source, target)[:2]
+
+
+def place_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> tuple[SurfacePoints, SurfacePoints, list[Note]]:
+    """As `check_landmarks`, with a note (W301) on positions that were moved to the surface, and how far."""
+    notes: list[Note] = []
+    sides = []
+    for given, mesh, name in zip(_halves(landmarks), (source, target), ("source", "target"), strict=True):
+        sides.append(_place(given, mesh, name, notes))
+    on_source, on_target = sides
+    if len(on_source) != len(on_target):
+        raise LandmarkError(
+            "E303", f"{len(on_source)} landmarks on the source but {len(on_target)} on the target; give one for each"
+        )
+    return on_source, on_target, notes
+
+
+def _halves(landmarks: Any) -> tuple[Any, Any]:
+    """The source half and the target half."""
+    if isinstance(landmarks, (tuple, list)) and len(landmarks) == 2:
+        halves: list[Any] = [x if isinstance(x, SurfacePoints) else _array(x) for x in landmarks]
+        plain = all(isinstance(x, (tuple, list)) for x in landmarks)
+        if not (plain and all(np.shape(x) == (2,) for x in halves)):
+            return halves[0], halves[1]
+    pairs = _array(landmarks)
+    if pairs.ndim != 2 or pairs.shape[1] != 2:
+        raise LandmarkError(
+            "E300", f"landmarks must be index pairs (k, 2) or a pair (on source, on target), not shape {pairs.shape}"
+        )
+    return pairs[:, 0], pairs[:, 1]
+
+
+def _array(values: Any) -> NDArray[Any]:
+    try:
+        array = np.asarray(values)
+    except ValueError as error:
+        raise LandmarkError("E300", f"landmarks do not form a rectangular array ({error})") from error
+    if array.dtype.kind not in "iuf" or np.ma.is_masked(values):
+        raise LandmarkError("E300", f"landmarks must be vertex indices or positions, not {array.dtype}")
+    return array
+
+
+def _place(given: Any, mesh: Mesh, name: str, notes: list[Note]) -> SurfacePoints:
+    """One half of the landmarks on its mesh."""
+    if isinstance(given, SurfacePoints):
+        if given.mesh is not mesh:
+            raise LandmarkError("E300", f"the landmarks of the {name} are points of another mesh")
+        points = given
+    elif given.ndim == 2 and given.shape[1] == 3:
+        points = _snap(given, mesh, name, notes)
+    elif given.ndim == 1:
+        return _at_vertices(given, mesh, name)
+    else:
+        raise LandmarkError("E300", f"landmarks of the {name} must have shape (k,) or (k, 3), not {given.shape}")
+    _refuse_repeats(points.positions, name)
+    return points
+
+
+def _at_vertices(given: NDArray[Any], mesh: Mesh, name: str) -> SurfacePoints:
+    if given.dtype.kind == "f" and (~np.isfinite(given) | (given != np.floor(given))).any():
+        raise LandmarkError("E300", f"vertex indices of the {name} must be whole numbers")
+    bad = np.flatnonzero((given < 0) | (given >= mesh.n_vertices))
+    if len(bad):
+        raise LandmarkError(
+            "E301", f"landmark {bad[0]}: the {name} has no vertex {given[bad[0]]}; it has {mesh.n_vertices}, from 0"
+        )
+    _refuse_repeats(given[:, None], name)
+    lonely = np.flatnonzero(~np.isin(given, mesh.faces))
+    if len(lonely):
+        raise LandmarkError("E304", f"landmark {lonely[0]}: vertex {given[lonely[0]]} of the {name} is on no face")
+    return SurfacePoints.at_vertices(mesh, given)
+
+
+def _refuse_repeats(rows: NDArray[Any], name: str) -> None:
+    _, first, inverse = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    repeated = np.flatnonzero(first[inverse.reshape(-1)] != np.arange(len(rows)))
+    if len(repeated):
+        earlier = first[inverse.reshape(-1)][repeated[0]]
+        raise LandmarkError("E302", f"landmarks {earlier} and {repeated[0]} are the same point of the {name}")
+
+
+def _snap(given: NDArray[Any], mesh: Mesh, name: str, notes: list[Note]) -> SurfacePoints:
+    try:
+        points = SurfacePoints.closest(mesh, given)
+    except MeshError as error:
+        raise LandmarkError("E300", f"positions of the {name} landmarks: {error}") from error
+    distance = np.linalg.norm(points.positions - given, axis=1)
+    share = distance / np.linalg.norm(np.ptp(mesh.vertices[mesh.faces], axis=(0, 1)))
+    worst = int(share.argmax())
+    if share[worst] > FARTHEST_LANDMARK:
+        raise LandmarkError(
+            "E305",
+            f"landmark {worst} lies {share[worst]:.1%} of the diagonal of the {name} off its surface (at most 5 %)",
+        )
+    moved = np.flatnonzero(share > 1e-6)
+    if len(moved):
+        message = (
+            f"{len(moved)} landmarks of the {name} moved to its surface, by up to {share[worst]:.2%} of the diagonal"
+        )
+        notes.append(Note("W301", "info", message, tuple(moved.tolist())))
+    return points
