@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geodesics import Mesh, SurfacePoints
+from geodesics.topology import vertex_components
 from geodesics.tracing import barycentric_gradient, gradient
 
 Array = NDArray[np.float64]
@@ -43,15 +44,17 @@ class EmbeddedPairs:
     points: SurfacePoints
     embedding: Array
     signature: Array
+    reach: NDArray[np.bool_] | None = None
 
     def distances(self) -> Array:
-        """Symmetric (p, p)."""
+        """Symmetric (p, p); +inf where `reach` (p, p) is False."""
         e = self.points.interpolate(self.embedding)
         gram = (e * self.signature) @ e.T
         norm = np.diagonal(gram)
         square = norm[:, None] + norm[None] - (gram + gram.T)
         np.fill_diagonal(square, 0.0)
-        return np.sqrt(np.maximum(square, 0.0))
+        distances = np.sqrt(np.maximum(square, 0.0))
+        return distances if self.reach is None else np.where(self.reach, distances, np.inf)
 
     def derivatives(self, distances: Array) -> Array:
         """(p, 2, p): of d(x_i, x_j) by the in-face displacement of x_i, = (e_i - e_j) . grad e_i / d; 0 where d = 0."""
@@ -96,5 +99,15 @@ def pairwise(distance: Distance, points: SurfacePoints) -> EmbeddedPairs | Field
     if hasattr(distance, "embedding"):
         embedding = cast(EmbeddedDistance, distance).embedding
         signature = getattr(distance, "signature", np.ones(embedding.shape[1]))
-        return EmbeddedPairs(points, embedding, signature)
+        return EmbeddedPairs(points, embedding, signature, _reach(distance, points))
     return FieldPairs(points, distance.field(points))
+
+
+def _reach(distance: Distance, points: SurfacePoints) -> NDArray[np.bool_] | None:
+    """Which points can reach each other (p, p), asked once per component of the mesh; None: all of them."""
+    label = vertex_components(points.mesh)[points.mesh.faces[points.face, 0]]
+    present, first, component = np.unique(label, return_index=True, return_inverse=True)
+    if len(present) == 1:
+        return None
+    finite = np.isfinite(distance.field(points[first])[:, points.mesh.faces[points.face, 0]])
+    return finite[component.reshape(-1)]

@@ -15,6 +15,8 @@ from gmds.problem import Placement, Problem
 from gmds.status import SolverError, Status
 
 Array = NDArray[np.float64]
+SHORTEST, LONGEST = 1e-6, 0.5
+"""Bounds of the trust region, in mean distances."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,20 +57,26 @@ def solve(
     stress = loss.value(here.residuals)
     if not np.isfinite(stress):
         raise SolverError(f"the stress at the start is {stress}: a distance is not a number")
-    radius = first_radius = float(np.clip(2 * np.sqrt(np.mean(here.residuals**2)), 1e-6, 0.5))
+    negligible = loss.value(np.full_like(here.residuals, 1e-10))
+    radius = float(np.clip(2 * np.sqrt(np.mean(here.residuals**2)), SHORTEST, LONGEST))
     status, iteration, predicted = Status.ITERATION_LIMIT, 0, np.inf
     for iteration in range(1, max_iterations + 1):
         step = loss.step(here.jacobian, here.residuals, radius)
         predicted = stress - loss.value(here.residuals + here.jacobian.apply(step))
-        if not predicted > tolerance * stress:
+        if stress <= negligible or not predicted > tolerance * stress:
             status = Status.CONVERGED
             break
-        there = _moved(problem, here, step)
+        there = problem.at(walk(here.points, here.jacobian.displacement(step)))
         gain = stress - loss.value(there.residuals)
-        radius = _resized(radius, gain / predicted)
+        agreement = gain / predicted
+        if not agreement > 0.25:
+            there = _without_setbacks(here, there)
+            gain = stress - loss.value(there.residuals)
+            agreement = min(gain / predicted, 0.5)
+        radius = _resized(radius, agreement)
         if gain > 0:
             here, stress = there, stress - gain
-        elif radius < 1e-4 * first_radius:
+        elif radius <= SHORTEST:
             status = Status.STALLED
             break
         if progress is not None:
@@ -77,15 +85,22 @@ def solve(
     return Solution(here.points, stress, here.residuals, status, certificate, radius, iteration)
 
 
-def _moved(problem: Problem, here: Placement, step: Array) -> Placement:
-    """The placement after the step."""
-    return problem.at(walk(here.points, here.jacobian.displacement(step)))
+def _without_setbacks(here: Placement, there: Placement) -> Placement:
+    """`there`, with the points back in place whose own squared residuals grew."""
+    kept = _share(there) < _share(here)
+    face = np.where(kept, there.points.face, here.points.face)
+    barycentric = np.where(kept[:, None], there.points.barycentric, here.points.barycentric)
+    return here.problem.at(SurfacePoints(here.points.mesh, face, barycentric))
+
+
+def _share(placement: Placement) -> Array:
+    """The sum of the squared residuals of each point, (p,)."""
+    problem, square = placement.problem, placement.residuals**2
+    count = len(problem)
+    return np.bincount(problem.first, square, count) + np.bincount(problem.second, square, count)
 
 
 def _resized(radius: float, agreement: float) -> float:
-    """Twice the radius where the linearisation foretold the gain well, a quarter or half where it did not."""
-    if agreement > 0.75:
-        return 2 * radius
-    if agreement > 0.25:
-        return radius
-    return radius / 2 if agreement > 0 else radius / 4
+    """Twice the radius where the linearisation foretold the gain well, a half or a quarter where it did not."""
+    factor = 2.0 if agreement > 0.75 else 1.0 if agreement > 0.25 else 0.5 if agreement > 0 else 0.25
+    return float(np.clip(factor * radius, SHORTEST, LONGEST))

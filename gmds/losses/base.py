@@ -43,11 +43,14 @@ class SmoothLoss(ABC):
         return float(self.rho(residuals).mean())
 
     def step(self, jacobian: Jacobian, residuals: Array, radius: float) -> Array:
-        """Gauss-Newton step (p, 2) in the ball whose root-mean-square step a point is `radius`.
+        """Gauss-Newton step (p, 2) in the ball whose root-mean-square step a point is `radius`,
+        no point going farther than twice that.
 
         Minimises slope . J y + 1/2 sum of curvature (J y)^2 by conjugate gradients stopped at the ball (Steihaug 1983).
         """
-        return truncated_newton(jacobian, self.slope(residuals), self.curvature(residuals), radius)
+        step = truncated_newton(jacobian, self.slope(residuals), self.curvature(residuals), radius)
+        length = np.linalg.norm(step, axis=1, keepdims=True)
+        return step * (2 * radius / np.maximum(length, 2 * radius))
 
 
 def truncated_newton(
