@@ -19,10 +19,13 @@ def view_rotation(azimuth: float, elevation: float) -> Array:
     return np.stack([right, np.cross(towards, right), towards])
 
 
-def render(mesh: Mesh, colours: Array, *, rotation: Array, pixels: int = 600, oversampling: int = 2) -> Array:
+def render(
+    mesh: Mesh, colours: Array, *, rotation: Array, pixels: int = 600, oversampling: int = 2, sharp: bool = False
+) -> Array:
     """An image (height, width, 3) in [0, 1] on white of the mesh with vertex colours (n, 3), seen along `rotation`.
 
     Parallel projection, one light at the viewer's shoulder, faces lit from both sides; `pixels` is the longer side.
+    `sharp` gives each pixel the colour of the nearest corner instead of a blend.
     """
     camera = mesh.vertices @ rotation.T
     low, high = camera[:, :2].min(0), camera[:, :2].max(0)
@@ -34,7 +37,7 @@ def render(mesh: Mesh, colours: Array, *, rotation: Array, pixels: int = 600, ov
     pixel, face, weights = _visible(xy, camera[:, 2], mesh.faces, int(width), int(height))
     normals = vertex_normals(mesh) @ rotation.T
     image = np.ones((height * width, 3))
-    image[pixel] = _shade(mesh.faces[face], weights, colours, normals)
+    image[pixel] = _shade(mesh.faces[face], weights, colours, normals, sharp)
     return image.reshape(height // oversampling, oversampling, width // oversampling, oversampling, 3).mean(axis=(1, 3))
 
 
@@ -61,10 +64,11 @@ def _visible(xy: Array, depth: Array, faces: NDArray[np.int64], width: int, heig
     return pixel[last], face[last], weights[last]
 
 
-def _shade(corners: NDArray[np.int64], weights: Array, colours: Array, normals: Array) -> Array:
+def _shade(corners: NDArray[np.int64], weights: Array, colours: Array, normals: Array, sharp: bool) -> Array:
     normal = (weights[:, :, None] * normals[corners]).sum(axis=1)
     normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
     light = np.array([-0.35, 0.45, 0.82])
     diffuse = np.abs(normal @ (light / np.linalg.norm(light)))
+    weights = np.eye(3)[weights.argmax(axis=1)] if sharp else weights
     base = (weights[:, :, None] * colours[corners]).sum(axis=1)
-    return np.clip(base * (0.35 + 0.65 * diffuse)[:, None], 0, 1)
+    return np.clip(base * (0.45 + 0.58 * diffuse)[:, None], 0, 1)
