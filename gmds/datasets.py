@@ -11,14 +11,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-from numpy.typing import NDArray
-
 from geodesics.errors import FormatError
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
+from gmds.truth_files import BadTruth, Indices, points_at, read_truth_npz, read_vts, shared_landmarks
 
-Indices = NDArray[np.int64]
 Truth = tuple[Indices, SurfacePoints, SurfacePoints | None]
 TruthReader = Callable[[Mesh, Mesh], Truth]
 
@@ -27,12 +24,6 @@ class UnknownDataset(FormatError):
     """A folder that is none of the known benchmarks, or lists pairs that are not there."""
 
     code = "E230"
-
-
-class BadTruth(FormatError):
-    """A truth file that can not be read or does not fit its mesh."""
-
-    code = "E231"
 
 
 @dataclass(frozen=True)
@@ -67,55 +58,6 @@ def dataset_pairs(folder: Path, listing: Path | None = None) -> list[Pair]:
     raise UnknownDataset(f"{folder} has neither corres/, pairs.json nor gts/ + models/: not a known benchmark folder")
 
 
-def read_vts(path: Path) -> Indices:
-    """Vertex indices (k,) from a .vts file, one 1-based index a line; returned 0-based. Raises `BadTruth`."""
-    try:
-        indices = np.array([int(word) for word in path.read_text(encoding="utf-8").split()], dtype=np.int64) - 1
-    except (ValueError, OverflowError) as error:
-        raise BadTruth(f"{path} must hold one whole number a line ({error})") from error
-    if len(indices) == 0 or indices.min() < 0:
-        raise BadTruth(f"{path} must hold vertex numbers from 1 on, at least one")
-    return indices
-
-
-def read_truth_npz(path: Path) -> tuple[Indices, Indices, Indices | None]:
-    """`src`, `gt` and `gt_sym` (None when absent), each (k,) 0-based, from a truth npz. Raises `BadTruth`."""
-    try:
-        with np.load(path, allow_pickle=False) as archive:
-            wanted = [np.asarray(archive[key], dtype=np.int64) for key in ("src", "gt")]
-            flipped = np.asarray(archive["gt_sym"], dtype=np.int64) if "gt_sym" in archive.files else None
-    except (KeyError, ValueError, EOFError, OSError) as error:
-        if isinstance(error, OSError) and error.errno is not None:
-            raise
-        raise BadTruth(f"{path} must hold whole-number arrays src and gt ({error})") from error
-    if any(
-        array.shape != wanted[0].shape or array.ndim != 1
-        for array in (*wanted, *([] if flipped is None else [flipped]))
-    ):
-        raise BadTruth(f"{path}: src, gt and gt_sym must be one-dimensional and equally long")
-    return wanted[0], wanted[1], flipped
-
-
-def read_landmarks_mat(path: Path) -> tuple[Indices, Indices, Indices, NDArray[np.float64]]:
-    """SHREC'20 landmarks: ids (k,), vertices (k,), faces (k,), weights (k, 3), all 0-based. Raises `BadTruth`.
-
-    Landmark 12 of camels sits on a hump that other animals lack and is dropped.
-    """
-    from scipy.io import loadmat
-
-    if not path.is_file():
-        raise FileNotFoundError(f"{path} does not exist")
-    try:
-        content = loadmat(path)
-        ids, vertices, points = (content[key] for key in ("points", "verts", "baryc"))
-        ids, vertices = ids.ravel().astype(np.int64), vertices.ravel().astype(np.int64) - 1
-        faces, weights = points[:, 0].astype(np.int64) - 1, np.maximum(points[:, 1:4].astype(np.float64), 0)
-    except Exception as error:  # on damaged bytes scipy raises a dozen different types
-        raise BadTruth(f"{path} must be a MATLAB file with points, verts and baryc ({error})") from error
-    keep = ~((ids == 12) & path.stem.startswith("camel"))
-    return ids[keep], vertices[keep], faces[keep], weights[keep] / weights[keep].sum(axis=1, keepdims=True)
-
-
 def _listed(file: Path, columns: int) -> list[Sequence[str]]:
     """The names on each line of a listing, separated by blanks or commas."""
     rows = [re.split(r"[\s,;]+", line.strip()) for line in file.read_text(encoding="utf-8").splitlines()]
@@ -135,7 +77,7 @@ def _vts_pair(folder: Path, source: str, target: str) -> Pair:
             raise BadTruth(
                 f"{paths[0]} and {paths[1]} (or its .sym) differ in length: they must share canonical points"
             )
-        return from_, SurfacePoints.at_vertices(target_mesh, to), _at(target_mesh, flipped)
+        return from_, SurfacePoints.at_vertices(target_mesh, to), points_at(target_mesh, flipped)
 
     return Pair(f"{source}-{target}", folder / f"{source}.off", folder / f"{target}.off", truth)
 
@@ -155,22 +97,15 @@ def _scaled_pairs(folder: Path, listing: Path | None) -> list[Pair]:
 def _scaled_pair(root: Path, entry: dict[str, str]) -> Pair:
     def truth(source_mesh: Mesh, target_mesh: Mesh) -> Truth:
         from_, to, flipped = read_truth_npz(root / entry["truth"])
-        return from_, SurfacePoints.at_vertices(target_mesh, to), _at(target_mesh, flipped)
+        return from_, SurfacePoints.at_vertices(target_mesh, to), points_at(target_mesh, flipped)
 
     return Pair(entry["name"], root / entry["source"], root / entry["target"], truth, entry.get("group", ""))
 
 
 def _shrec_pair(folder: Path, group: str, source: str, target: str) -> Pair:
     def truth(source_mesh: Mesh, target_mesh: Mesh) -> Truth:
-        ids, vertices, _, _ = read_landmarks_mat(folder / "gts" / f"{source}.mat")
-        other, _, faces, weights = read_landmarks_mat(folder / "gts" / f"{target}.mat")
-        _, here, there = np.intersect1d(ids, other, return_indices=True)
-        return vertices[here], SurfacePoints(target_mesh, faces[there], weights[there]), None
+        source_file, target_file = (folder / "gts" / f"{name}.mat" for name in (source, target))
+        return *shared_landmarks(source_file, target_file, target_mesh), None
 
-    return Pair(
-        f"{source}-{target}", folder / "models" / f"{source}.obj", folder / "models" / f"{target}.obj", truth, group
-    )
-
-
-def _at(mesh: Mesh, indices: Indices | None) -> SurfacePoints | None:
-    return None if indices is None else SurfacePoints.at_vertices(mesh, indices)
+    source_file, target_file = (folder / "models" / f"{name}.obj" for name in (source, target))
+    return Pair(f"{source}-{target}", source_file, target_file, truth, group)

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from geodesics.errors import FormatError
 from geodesics.mesh import Mesh
-from gmds._files import atomic_write
+from geodesics.io import atomic_write
 from gmds.errors import MapArray, MapMembers, MapMismatch, MapVersion, PickledMember
 
 FORMAT, VERSION = "gmds-map", 1

@@ -13,9 +13,10 @@ from shapes import bumpy_sphere, icosphere, joined, moved, rectangle
 from geodesics import Mesh, SurfacePoints
 from gmds.benchmarking import BenchmarkRow, benchmark, means, turned, write_csv
 from gmds.correspondence import Correspondence
-from gmds.datasets import BadTruth, UnknownDataset, dataset_pairs, read_landmarks_mat, read_truth_npz, read_vts
+from gmds.datasets import UnknownDataset, dataset_pairs
 from gmds.errors import MapError
 from gmds.evaluation import coverage, error_curve, geodesic_error, protocol_subset, summary, surface_area
+from gmds.truth_files import BadTruth, read_landmarks_mat, read_truth_npz, read_vts
 
 
 class SphereDistance:

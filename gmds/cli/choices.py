@@ -1,0 +1,54 @@
+"""Names that stand for objects; only the command line knows them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import click
+
+if TYPE_CHECKING:
+    from geodesics import Mesh
+
+METRICS = ("embedded", "scale-invariant", "min-curvature", "equi-affine", "affine")
+DISTANCES = ("commute-time", "diffusion", "biharmonic", "geodesic")
+LOSSES = ("least-squares", "huber", "minimax")
+EIGENPAIRS = 200
+DIFFUSION_TIME = 1.0  # in units of 1 / lambda_1
+
+metric_option = click.option("--metric", type=click.Choice(METRICS), help="Metric in which distances are measured.")
+distance_option = click.option("--distance", type=click.Choice(DISTANCES), help="Distance that the map preserves.")
+loss_option = click.option("--loss", type=click.Choice(LOSSES), help="How the misfit of distances is added up.")
+
+
+def chosen_distance(metric: str | None, distance: str | None) -> Callable[[Mesh], Any] | None:
+    """The function Mesh -> Distance that two names stand for; None, the default of match, when neither is given."""
+    if metric is None and distance is None:
+        return None
+    import geodesics
+
+    measure = getattr(geodesics, (metric or "scale-invariant").replace("-", "_"))
+    kind = distance or "commute-time"
+
+    def build(mesh: Mesh) -> Any:
+        if kind == "geodesic":
+            return geodesics.GeodesicDistance(measure(mesh))
+        spectrum = geodesics.eigenpairs(measure(mesh), min(EIGENPAIRS, mesh.n_vertices - 1))
+        if kind == "diffusion":
+            return geodesics.DiffusionDistance(spectrum, DIFFUSION_TIME / spectrum.eigenvalues[1])
+        return (
+            geodesics.CommuteTimeDistance(spectrum)
+            if kind == "commute-time"
+            else geodesics.BiharmonicDistance(spectrum)
+        )
+
+    return build
+
+
+def chosen_loss(name: str | None) -> Any:
+    """The loss a name stands for; None, the default of match, when no name is given."""
+    if name is None:
+        return None
+    import gmds
+
+    return {"least-squares": gmds.LeastSquares, "huber": gmds.Huber, "minimax": gmds.Minimax}[name]()

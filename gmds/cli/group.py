@@ -1,0 +1,120 @@
+"""A click group that imports its commands when they are needed and turns errors into exit codes."""
+
+from __future__ import annotations
+
+import errno
+import importlib
+import os
+import signal
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any, NoReturn
+
+import click
+
+BAD_INPUT, UNFINISHED, INTERRUPTED = 1, 3, 130
+
+
+class Command(click.Command):
+    """A command that takes `--debug`, wherever it stands."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self.params.append(_debug_option())
+
+
+class LazyGroup(click.Group):
+    """Commands live in modules named after them, below `commands_in`, as `command`.
+
+    Exit codes: 0 done, 1 bad mesh or file, 2 wrong usage, 3 a batch finished with failures, 130 interrupted.
+    Errors are one line on stderr; `--debug` shows the traceback.
+    """
+
+    def __init__(self, name: str, *, commands_in: str, command_names: Sequence[str], **kwargs: Any) -> None:
+        super().__init__(name, context_settings={"help_option_names": ["-h", "--help"]}, **kwargs)
+        self.params += [_version_option(), _debug_option()]
+        self.commands_in, self.command_names = commands_in, tuple(command_names)
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return list(self.command_names)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        if cmd_name not in self.command_names:
+            return None
+        command: click.Command = importlib.import_module(f"{self.commands_in}.{cmd_name}").command
+        return command
+
+    def main(self, args: Sequence[str] | None = None, *_: Any, **extra: Any) -> NoReturn:
+        """Run, and end the process with the exit code."""
+        arguments = list(sys.argv[1:] if args is None else args)
+        extra.pop("standalone_mode", None)
+        with _errors_as_exit_codes("--debug" in arguments):
+            code = super().main(arguments, standalone_mode=False, **extra)
+            sys.stdout.flush()
+        sys.exit(code if isinstance(code, int) else 0)
+
+
+@contextmanager
+def _errors_as_exit_codes(debug: bool) -> Iterator[None]:
+    previous = _on_terminate(_raise_interrupt)
+    try:
+        yield
+    except click.ClickException as error:
+        error.show()
+        sys.exit(error.exit_code)
+    except (KeyboardInterrupt, click.Abort):
+        _fail("interrupted", INTERRUPTED)
+    except OSError as error:
+        if error.errno == errno.EPIPE:  # the reader of our output has gone: nothing to say, and nobody to say it to
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            sys.exit(BAD_INPUT)
+        _fail_or_show(error, debug)
+    except (ValueError, ArithmeticError, ImportError, MemoryError) as error:
+        _fail_or_show(error, debug)
+    except Exception as error:
+        if debug:
+            raise
+        _fail(f"internal error: {type(error).__name__}: {error} (run again with --debug and report it)", BAD_INPUT)
+    finally:
+        _on_terminate(previous)
+
+
+def _fail_or_show(error: BaseException, debug: bool) -> NoReturn:
+    if debug:
+        raise error
+    _fail(str(error) or type(error).__name__, BAD_INPUT)
+
+
+def _fail(message: str, code: int) -> NoReturn:
+    click.echo(f"gmds: {message}", err=True)
+    sys.exit(code)
+
+
+def _raise_interrupt(*_: object) -> None:
+    raise KeyboardInterrupt
+
+
+def _on_terminate(handler: Any) -> Any:
+    """Install a handler for SIGTERM; outside the main thread Python forbids that, and nothing happens."""
+    try:
+        return signal.signal(signal.SIGTERM, handler)
+    except ValueError:
+        return None
+
+
+def _debug_option() -> click.Option:
+    return click.Option(["--debug"], is_flag=True, expose_value=False, help="Show the traceback of an error.")
+
+
+def _version_option() -> click.Option:
+    def show(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
+        if wanted:
+            from importlib.metadata import version
+
+            click.echo(f"gmds {version('gmds')}")
+            ctx.exit()
+
+    return click.Option(
+        ["--version"], is_flag=True, expose_value=False, is_eager=True, callback=show, help="Show the version."
+    )

@@ -1,0 +1,91 @@
+"""gmds match: one pair of meshes, one map."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from gmds.cli.choices import chosen_distance, chosen_loss, distance_option, loss_option, metric_option
+from gmds.cli.group import Command
+from gmds.cli.output import emit, json_option, note, progress_bar, seed_option
+
+FILE = click.Path(path_type=Path)
+
+
+@click.command(cls=Command)
+@click.argument("source", type=FILE)
+@click.argument("target", type=FILE)
+@click.option("-o", "--output", default="map.npz", show_default=True, type=FILE, help="Where the map goes.")
+@click.option("--report", type=FILE, help="Write a page to turn both surfaces in a browser.")
+@click.option("--picture", type=FILE, help="Write a PNG of both surfaces.")
+@click.option("--landmarks", type=FILE, help="Known points: two vertex numbers (from 0) or six coordinates a line.")
+@click.option("--samples", type=int, help="How many samples the embedding places.")
+@click.option("--orientation", type=click.Choice(["preserve", "reverse", "any"]), default="preserve", show_default=True)
+@metric_option
+@distance_option
+@loss_option
+@seed_option
+@json_option
+def command(source: Path, target: Path, output: Path, as_json: bool, seed: int, **options: Any) -> None:
+    """Find for every vertex of SOURCE the point of TARGET that corresponds to it, and write the map.
+
+    Meshes are OFF, OBJ, PLY, STL, GLB or TOSCA .vert/.tri files. The map is a .npz that numpy alone can read.
+    """
+    import time
+
+    from geodesics import read_mesh
+    from gmds import match
+
+    meshes = read_mesh(source), read_mesh(target)
+    wanted: dict[str, Any] = {
+        "distance": chosen_distance(options["metric"], options["distance"]),
+        "loss": chosen_loss(options["loss"]),
+        "landmarks": _landmarks(options["landmarks"]),
+    }
+    if options["samples"] is not None:
+        wanted["n_samples"] = options["samples"]
+    started = time.process_time()
+    with progress_bar("match") as progress:
+        answer = match(*meshes, orientation=options["orientation"], rng=seed, progress=progress, **wanted)
+    seconds = time.process_time() - started
+    answer.save(output)
+    emit({"map": str(output), "cpu_seconds": seconds, **described(answer)}, as_json)
+    write_views(answer, options["report"], options["picture"])
+
+
+def described(answer: Any) -> dict[str, Any]:
+    """What can be said of a map without knowing the truth."""
+    import numpy as np
+
+    candidates = [{"stress": float(c.stress), "orientation": float(c.orientation)} for c in answer.candidates]
+    return {
+        "status": answer.status.name,
+        "meaning": answer.status.value,
+        "valid": f"{int(answer.valid.sum())} of {len(answer.valid)}",
+        "median_distortion": float(np.median(answer.distortion)),
+        "candidates": candidates,
+    }
+
+
+def write_views(answer: Any, report: Path | None, picture: Path | None, **details: Any) -> None:
+    """The page and the picture that were asked for; each written file is named on stderr."""
+    if report is not None:
+        from gmds.report import write_report
+
+        write_report(report, answer, **details)
+        note(f"wrote {report}")
+    if picture is not None:
+        from gmds.pictures import write_picture
+
+        write_picture(picture, answer, **details)
+        note(f"wrote {picture}")
+
+
+def _landmarks(path: Path | None) -> Any:
+    if path is None:
+        return None
+    from gmds.cli.landmark_file import read_landmarks
+
+    return read_landmarks(path)

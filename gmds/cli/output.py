@@ -1,0 +1,59 @@
+"""What commands say: results on stdout, progress on stderr."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from typing import Any
+
+import click
+
+Progress = Callable[[str, float], None]
+
+json_option = click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
+seed_option = click.option("--seed", default=0, show_default=True, help="Seed of everything random.")
+
+
+def emit(result: Mapping[str, Any], as_json: bool) -> None:
+    """Print a result on stdout: JSON, or one `name: value` a line."""
+    if as_json:
+        click.echo(json.dumps(result, indent=2, allow_nan=False))
+        return
+    width = max((len(name) for name in result), default=0)
+    for name, value in result.items():
+        click.echo(f"{name + ':':<{width + 1}} {_plain(value)}")
+
+
+def note(message: str) -> None:
+    """One line on stderr."""
+    click.echo(message, err=True)
+
+
+@contextmanager
+def progress_bar(title: str) -> Iterator[Progress]:
+    """A bar on stderr, moved by the function the block gets; nothing shows unless stderr is a terminal."""
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    console = Console(stderr=True)
+    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bars:
+        task = bars.add_task(title, total=1.0)
+
+        def progress(stage: str, fraction: float) -> None:
+            bars.update(
+                task, description=f"{title}: {stage}" if stage else title, completed=min(max(fraction, 0.0), 1.0)
+            )
+
+        yield progress
+
+
+def _plain(value: Any) -> str:
+    if isinstance(value, float):
+        return f"{value:.4g}"
+    if isinstance(value, Mapping):
+        return ", ".join(f"{name} {_plain(item)}" for name, item in value.items())
+    if isinstance(value, list | tuple):
+        return ", ".join(_plain(item) for item in value)
+    return "-" if value is None else str(value)

@@ -1,0 +1,120 @@
+"""Where points should go, in the formats in which publishers say so; indices come out 0-based."""
+
+from __future__ import annotations
+
+import zipfile
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics.errors import FormatError
+from geodesics.mesh import Mesh
+from geodesics.points import SurfacePoints
+from gmds.correspondence import Correspondence
+
+Indices = NDArray[np.int64]
+
+
+class BadTruth(FormatError):
+    """A truth file that can not be read or does not fit its mesh."""
+
+    code = "E231"
+
+
+def read_truth(
+    path: Path, source: Mesh, target: Mesh, *, source_path: Path | None = None, flipped: bool = False
+) -> tuple[Indices, SurfacePoints] | None:
+    """Source vertices (p,) and their true points on the target, from a file of any of the known kinds.
+
+    .npz: `src` and `gt` (or `gt_sym` when `flipped`; None when it is absent), or a map.npz. .vts: with the source's
+    own file as `source_path`, else one line per source vertex. .mat: SHREC'20 landmarks, with `source_path`.
+    Raises `FormatError` or `MeshError` when the file does not fit the meshes.
+    """
+    kind = path.suffix.lower()
+    if kind == ".npz" and _is_map(path):
+        answer = Correspondence.load(path, source, target)
+        rows = np.flatnonzero(answer.valid)
+        return None if flipped else (rows, answer.points[rows])
+    if kind == ".npz":
+        indices, direct, mirrored = read_truth_npz(path)
+        true = mirrored if flipped else direct
+        return None if true is None else (indices, SurfacePoints.at_vertices(target, true))
+    if kind == ".mat":
+        if source_path is None:
+            raise BadTruth(f"{path} holds landmarks of one mesh; name the source's .mat file too")
+        return shared_landmarks(source_path, path, target)
+    to = read_vts(path)
+    from_ = np.arange(source.n_vertices) if source_path is None else read_vts(source_path)
+    if len(from_) != len(to):
+        raise BadTruth(f"{path} has {len(to)} lines for {len(from_)} source points; is the source's .vts file missing?")
+    return from_, SurfacePoints.at_vertices(target, to)
+
+
+def shared_landmarks(source_path: Path, target_path: Path, target: Mesh) -> tuple[Indices, SurfacePoints]:
+    """Source vertices and target points of the SHREC'20 landmarks that two .mat files share."""
+    ids, vertices, _, _ = read_landmarks_mat(source_path)
+    target_ids, _, faces, weights = read_landmarks_mat(target_path)
+    _, here, there = np.intersect1d(ids, target_ids, return_indices=True)
+    return vertices[here], SurfacePoints(target, faces[there], weights[there])
+
+
+def read_vts(path: Path) -> Indices:
+    """Vertex indices (k,) from a .vts file, one 1-based index a line; returned 0-based. Raises `BadTruth`."""
+    try:
+        indices = np.array([int(word) for word in path.read_text(encoding="utf-8").split()], dtype=np.int64) - 1
+    except (ValueError, OverflowError) as error:
+        raise BadTruth(f"{path} must hold one whole number a line ({error})") from error
+    if len(indices) == 0 or indices.min() < 0:
+        raise BadTruth(f"{path} must hold vertex numbers from 1 on, at least one")
+    return indices
+
+
+def read_truth_npz(path: Path) -> tuple[Indices, Indices, Indices | None]:
+    """`src`, `gt` and `gt_sym` (None when absent), each (k,) 0-based, from a truth npz. Raises `BadTruth`."""
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            wanted = [np.asarray(archive[key], dtype=np.int64) for key in ("src", "gt")]
+            flipped = np.asarray(archive["gt_sym"], dtype=np.int64) if "gt_sym" in archive.files else None
+    except (KeyError, ValueError, EOFError, OSError) as error:
+        if isinstance(error, OSError) and error.errno is not None:
+            raise
+        raise BadTruth(f"{path} must hold whole-number arrays src and gt ({error})") from error
+    if any(
+        array.shape != wanted[0].shape or array.ndim != 1
+        for array in (*wanted, *([] if flipped is None else [flipped]))
+    ):
+        raise BadTruth(f"{path}: src, gt and gt_sym must be one-dimensional and equally long")
+    return wanted[0], wanted[1], flipped
+
+
+def read_landmarks_mat(path: Path) -> tuple[Indices, Indices, Indices, NDArray[np.float64]]:
+    """SHREC'20 landmarks: ids (k,), vertices (k,), faces (k,), weights (k, 3), all 0-based. Raises `BadTruth`.
+
+    Landmark 12 of camels sits on a hump that other animals lack and is dropped.
+    """
+    from scipy.io import loadmat
+
+    if not path.is_file():
+        raise FileNotFoundError(f"{path} does not exist")
+    try:
+        content = loadmat(path)
+        ids, vertices, points = (content[key] for key in ("points", "verts", "baryc"))
+        ids, vertices = ids.ravel().astype(np.int64), vertices.ravel().astype(np.int64) - 1
+        faces, weights = points[:, 0].astype(np.int64) - 1, np.maximum(points[:, 1:4].astype(np.float64), 0)
+    except Exception as error:  # on damaged bytes scipy raises a dozen different types
+        raise BadTruth(f"{path} must be a MATLAB file with points, verts and baryc ({error})") from error
+    keep = ~((ids == 12) & path.stem.startswith("camel"))
+    return ids[keep], vertices[keep], faces[keep], weights[keep] / weights[keep].sum(axis=1, keepdims=True)
+
+
+def points_at(mesh: Mesh, indices: Indices | None) -> SurfacePoints | None:
+    """The points at vertices `indices`, None for None."""
+    return None if indices is None else SurfacePoints.at_vertices(mesh, indices)
+
+
+def _is_map(path: Path) -> bool:
+    if not zipfile.is_zipfile(path):
+        return False
+    with zipfile.ZipFile(path) as archive:
+        return "barycentric.npy" in archive.namelist()
