@@ -15,13 +15,15 @@ from geodesics.points import SurfacePoints
 Array = NDArray[np.float64]
 
 
-def walk(points: SurfacePoints, displacement: ArrayLike, max_crossings: int = 1000) -> SurfacePoints:
+def walk(
+    points: SurfacePoints, displacement: ArrayLike, max_crossings: int = 1000, *, walled: bool = False
+) -> SurfacePoints:
     """Each point moved straight by its displacement (p, 2), given in the frame of its face, in units of the mesh.
 
     Frame of a face: corner 0 is the origin, corner 1 lies on the x axis and corner 2 above it. At an edge the next
     face is unfolded into the plane of the one before. At the boundary, and where more than two faces meet in an
     edge, the point slides along the edge with what is left of its displacement. After `max_crossings` edges, or when
-    the displacement is not finite, the point stays where it is by then.
+    the displacement is not finite, the point stays where it is by then. `walled` makes every edge a boundary.
 
     Raises `MeshError` when the shapes disagree.
     """
@@ -29,10 +31,32 @@ def walk(points: SurfacePoints, displacement: ArrayLike, max_crossings: int = 10
     if step.shape != (len(points), 2):
         raise BadShape(f"displacement must have shape ({len(points)}, 2), not {step.shape}")
     mesh = points.mesh
-    face, barycentric = kernel.walk(
-        points.face, points.barycentric, step, neighbours(mesh), layout(mesh), max_crossings
-    )
-    return SurfacePoints(mesh, face, barycentric)
+    across = np.full((mesh.n_faces, 3), kernel.NO_NEIGHBOUR) if walled else neighbours(mesh)
+    return SurfacePoints(mesh, *kernel.walk(points.face, points.barycentric, step, across, layout(mesh), max_crossings))
+
+
+def turned_over(points: SurfacePoints, nearness: float = 1e-9) -> tuple[SurfacePoints, NDArray[np.bool_]]:
+    """The same points, those on an edge now as points of the face across it, and which they are, (p,).
+
+    On an edge are points with a weight up to `nearness` and a face across; the weight becomes 0. Points on a vertex
+    go round it: on consistently oriented faces, repeated calls lead through all faces of an inner vertex.
+    """
+    index, across = np.arange(len(points)), neighbours(points.mesh)
+    top = points.barycentric.argmax(axis=1)
+    corner = (top + 1) % 3
+    for other in (top + 2) % 3, (top + 1) % 3:
+        possible = (points.barycentric[index, other] <= nearness) & (across[points.face, other] != kernel.NO_NEIGHBOUR)
+        corner = np.where(possible, other, corner)
+    code = across[points.face, corner]
+    turned = (points.barycentric[index, corner] <= nearness) & (code != kernel.NO_NEIGHBOUR)
+    index, corner, code = index[turned], corner[turned], code[turned]
+    face, barycentric = points.face.copy(), points.barycentric.copy()
+    face[index] = code // 9
+    barycentric[index] = 0.0
+    barycentric[index, code // 3 % 3] = points.barycentric[index, (corner + 1) % 3]
+    barycentric[index, code % 3] = points.barycentric[index, (corner + 2) % 3]
+    barycentric /= barycentric.sum(axis=1, keepdims=True)
+    return SurfacePoints(points.mesh, face, barycentric), turned
 
 
 def gradient(points: SurfacePoints, values: ArrayLike) -> Array:

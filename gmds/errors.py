@@ -42,3 +42,12 @@ class PickledMember(FormatError):
     """A map file holds pickled objects, which are never loaded."""
 
     code = "E220"
+
+
+class SolverError(ArithmeticError):
+    """The stress is not a finite number at the start, so there is nothing to improve."""
+
+    code = "E403"
+
+    def __init__(self, message: str) -> None:
+        super().__init__(f"{self.code}: {message}")

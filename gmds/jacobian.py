@@ -20,13 +20,15 @@ class Jacobian:
 
     `blocks` (r, 2, 2): row r depends on the two coordinates of point first[r] through blocks[r, 0], and of second[r]
     through blocks[r, 1]. Steps are measured in distances, not lengths: `frames` (p, 2, 2) turns the step of a point
-    into its displacement in the frame of its face, so that a step of 1 changes its distances by about 1.
+    into its displacement in the frame of its face, so that a step of 1 changes its distances by about 1. `walls`, if
+    there are any, are the barycentric weights (p, 3) and their derivative by the step (p, 3, 2): they must stay >= 0.
     """
 
     first: Index
     second: Index
     blocks: Array
     frames: Array
+    walls: tuple[Array, Array] | None = None
 
     @property
     def n_points(self) -> int:

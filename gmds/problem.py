@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import functools
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from geodesics import SurfacePoints
+from geodesics.tracing import barycentric_gradient
 from gmds.jacobian import Jacobian, scaled
 from gmds.pairwise import Distance, EmbeddedPairs, FieldPairs, pairwise
 
@@ -119,6 +120,12 @@ class Placement:
         np.add.at(weight, problem.second, problem.root_weights**2)
         smallest = np.finfo(float).tiny
         return scaled(problem.first, problem.second, self.derivatives, len(problem), np.maximum(weight, smallest))
+
+    @functools.cached_property
+    def walled_jacobian(self) -> Jacobian:
+        """The same with walls: no weight of a point may fall below zero, so that no point leaves its face."""
+        slope = np.einsum("pkx,pxy->pky", barycentric_gradient(self.points), self.jacobian.frames)
+        return replace(self.jacobian, walls=(self.points.barycentric, slope))
 
 
 def _pairs(pairs: ArrayLike | None, count: int) -> tuple[Index, Index]:

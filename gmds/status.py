@@ -11,12 +11,3 @@ class Status(Enum):
     CONVERGED = "converged: the linearised problem can not lower the stress by more than the tolerance"
     STALLED = "stalled: no step, however short, lowers the stress any more"
     ITERATION_LIMIT = "stopped at the iteration limit while the stress was still falling"
-
-
-class SolverError(ArithmeticError):
-    """The stress is not a finite number at the start, so there is nothing to improve."""
-
-    code = "E403"
-
-    def __init__(self, message: str) -> None:
-        super().__init__(f"{self.code}: {message}")

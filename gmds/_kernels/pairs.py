@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+from numpy.typing import NDArray
+
+from geodesics._kernels.jit import njit
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
 
 
-@njit(cache=True, nogil=True)
-def multiply(first, second, blocks, step):
+@njit
+def multiply(first: Index, second: Index, blocks: Array, step: Array) -> Array:
     """Row r is blocks[r, 0] . step[first[r]] + blocks[r, 1] . step[second[r]]; step is (p, 2)."""
     out = np.empty(len(first))
     for r in range(len(first)):
@@ -21,8 +26,8 @@ def multiply(first, second, blocks, step):
     return out
 
 
-@njit(cache=True, nogil=True)
-def multiply_transposed(first, second, blocks, rows, n_points):
+@njit
+def multiply_transposed(first: Index, second: Index, blocks: Array, rows: Array, n_points: int) -> Array:
     """The transpose of `multiply` applied to rows (r,): shape (n_points, 2)."""
     out = np.zeros((n_points, 2))
     for r in range(len(first)):
@@ -34,8 +39,8 @@ def multiply_transposed(first, second, blocks, rows, n_points):
     return out
 
 
-@njit(cache=True, nogil=True)
-def weighted_normal(first, second, blocks, weights, step):
+@njit
+def weighted_normal(first: Index, second: Index, blocks: Array, weights: Array, step: Array) -> Array:
     """J^T diag(weights) J step, in one pass: shape (p, 2)."""
     out = np.zeros_like(step)
     for r in range(len(first)):
@@ -53,8 +58,8 @@ def weighted_normal(first, second, blocks, weights, step):
     return out
 
 
-@njit(cache=True, nogil=True)
-def second_moments(first, second, blocks, n_points):
+@njit
+def second_moments(first: Index, second: Index, blocks: Array, n_points: int) -> Array:
     """Sum over the rows of each point of the outer product of its block: (n_points, 3) = xx, xy, yy."""
     out = np.zeros((n_points, 3))
     for r in range(len(first)):
@@ -67,8 +72,8 @@ def second_moments(first, second, blocks, n_points):
     return out
 
 
-@njit(cache=True, nogil=True)
-def change_frames(first, second, blocks, frames):
+@njit
+def change_frames(first: Index, second: Index, blocks: Array, frames: Array) -> Array:
     """Every block times the frame (2, 2) of its point, in a new array."""
     out = np.empty_like(blocks)
     for r in range(len(first)):

@@ -3,9 +3,10 @@
 from gmds.losses.base import Loss, SmoothLoss
 from gmds.losses.huber import Huber
 from gmds.losses.least_squares import LeastSquares
+from gmds.losses.minimax import Minimax
 from gmds.losses.power import Power
 
-ALL = (LeastSquares, Huber, Power)
+ALL = (LeastSquares, Huber, Power, Minimax)
 """Every loss, each to be made without arguments; the tests of losses run on all of them."""
 
-__all__ = ["ALL", "Huber", "LeastSquares", "Loss", "Power", "SmoothLoss"]
+__all__ = ["ALL", "Huber", "LeastSquares", "Loss", "Minimax", "Power", "SmoothLoss"]

@@ -1,0 +1,116 @@
+"""One descent: linearise, step, walk, accept or shrink, until nothing is left to gain."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics import SurfacePoints
+from geodesics.tracing import turned_over, walk
+from gmds.losses import Loss
+from gmds.problem import Placement
+from gmds.status import Status
+
+Array = NDArray[np.float64]
+SHORTEST, LONGEST = 1e-6, 0.5
+"""Bounds of the trust region, in mean distances."""
+SIDES = 6
+"""How many times in a row points on edges are turned over before nothing is left to gain."""
+
+
+@dataclass(frozen=True, eq=False)
+class Descent:
+    """Where a descent is: the placement, its stress, the trust region, and what was last foretold."""
+
+    here: Placement
+    stress: float
+    radius: float
+    iteration: int = 0
+    foretold: float = np.inf
+    status: Status = Status.ITERATION_LIMIT
+
+
+def descend(
+    state: Descent,
+    loss: Loss,
+    walled: bool,
+    tolerance: float,
+    max_iterations: int,
+    report: Callable[[int], None],
+) -> Descent:
+    """Lower the stress until the linearised problem foretells less than `tolerance` times the stress.
+
+    Free: points walk across faces. Walled: each step keeps every point in its face, where the linearisation is good,
+    and points that end on an edge are turned over to the other face before the next.
+    """
+    here, stress, radius = state.here, state.stress, state.radius
+    negligible = loss.value(np.full_like(here.residuals, 1e-10))
+    quiet: list[float] = []
+    for iteration in range(state.iteration + 1, max_iterations + 1):
+        jacobian = here.walled_jacobian if walled else here.jacobian
+        step = loss.step(jacobian, here.residuals, radius)
+        foretold = stress - loss.value(here.residuals + jacobian.apply(step))
+        if stress <= negligible:
+            return Descent(here, stress, radius, iteration, 0.0, Status.CONVERGED)
+        if not foretold > tolerance * stress:
+            quiet.append(max(foretold, 0.0))
+            other, turned = turned_over(here.points)
+            if not np.isfinite(foretold):
+                return Descent(here, stress, radius, iteration, np.inf, Status.STALLED)
+            if not walled or not turned.any() or len(quiet) >= SIDES:
+                return Descent(here, stress, radius, iteration, max(quiet), Status.CONVERGED)
+            here = here.problem.at(other)
+            continue
+        quiet = []
+        there, agreement = _tried(here, stress, jacobian.displacement(step), foretold, loss, walled)
+        radius = _resized(radius, agreement)
+        if agreement > 0:
+            here, stress = there, loss.value(there.residuals)
+        elif radius <= SHORTEST:
+            return Descent(here, stress, radius, iteration, foretold, Status.STALLED)
+        other, turned = turned_over(here.points)
+        if walled and turned.any():
+            here = here.problem.at(other)
+            stress = loss.value(here.residuals)
+        report(iteration)
+    return Descent(here, stress, radius, max_iterations, np.inf, Status.ITERATION_LIMIT)
+
+
+def _tried(
+    here: Placement, stress: float, displacement: Array, foretold: float, loss: Loss, walled: bool
+) -> tuple[Placement, float]:
+    """The placement after the walk, and its gain as a share of what was foretold.
+
+    A poor step is tried again without the points whose own residuals grew; then the share is at most 1/2.
+    """
+    there = here.problem.at(walk(here.points, displacement, walled=walled))
+    agreement = (stress - loss.value(there.residuals)) / foretold
+    if agreement > 0.25:
+        return there, agreement
+    there = _without_setbacks(here, there)
+    return there, min((stress - loss.value(there.residuals)) / foretold, 0.5)
+
+
+def _without_setbacks(here: Placement, there: Placement) -> Placement:
+    """`there`, with the points back in place whose own squared residuals grew."""
+    kept = _share(there) < _share(here)
+    face = np.where(kept, there.points.face, here.points.face)
+    barycentric = np.where(kept[:, None], there.points.barycentric, here.points.barycentric)
+    return here.problem.at(SurfacePoints(here.points.mesh, face, barycentric))
+
+
+def _share(placement: Placement) -> Array:
+    """The sum of the squared residuals of each point, (p,)."""
+    problem, square = placement.problem, placement.residuals**2
+    count = len(problem)
+    share: Array = np.bincount(problem.first, square, count) + np.bincount(problem.second, square, count)
+    return share
+
+
+def _resized(radius: float, agreement: float) -> float:
+    """Twice the radius where the linearisation foretold the gain well, a half or a quarter where it did not."""
+    factor = 2.0 if agreement > 0.75 else 1.0 if agreement > 0.25 else 0.5 if agreement > 0 else 0.25
+    return float(np.clip(factor * radius, SHORTEST, LONGEST))
