@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +12,8 @@ import scipy.sparse.linalg as sla
 from numpy.typing import NDArray
 
 from geodesics.errors import EigensolverFailed
-from geodesics.laplacian import stiffness
+from geodesics.lanczos import smallest_eigenpairs
+from geodesics.laplacian import lumped_mass, stiffness
 from geodesics.mesh import Mesh
 from geodesics.metric import Metric
 
@@ -20,7 +22,11 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Spectrum:
-    """Eigenvalues (count,) ascending from 0, in units of 1 / area, and mass-orthonormal eigenfunctions (n, count)."""
+    """Eigenvalues (count,) ascending from 0, in units of 1 / area, and eigenfunctions (n, count).
+
+    Eigenfunctions are orthonormal in the mass matrix; `mass` (n,) is the lumped one: integrals over the surface
+    are `mass @ values`.
+    """
 
     mesh: Mesh
     mass: Array
@@ -28,33 +34,46 @@ class Spectrum:
     eigenfunctions: Array
 
 
-def eigenpairs(metric: Metric, count: int) -> Spectrum:
-    """The `count` smallest eigenpairs of W phi = lambda M phi (sec. 4, (4.4)), repeatable from run to run.
+def eigenpairs(
+    metric: Metric,
+    count: int,
+    *,
+    mass: Callable[[Metric], sp.spmatrix] = lumped_mass,
+    fixed: NDArray[np.bool_] | None = None,
+) -> Spectrum:
+    """The `count` smallest eigenpairs of A alpha = lambda B alpha (sec. 4, (4.4)), repeatable from run to run.
 
-    Vertices without mass (on no face) get zero rows. A mesh with fewer than `count` vertices yields as many
-    eigenpairs as it has. Raises `EigensolverFailed` (E402) when the iteration does not converge.
+    `mass` makes B: `lumped_mass` or `galerkin_mass`. The boundary is free (Neumann); functions vanish where `fixed`
+    (n,) is True (Dirichlet: `fixed=boundary_vertices(mesh)`). Vertices without mass (on no face) get zero rows; a mesh
+    with fewer free vertices than `count` gives as many eigenpairs as it has. Raises `EigensolverFailed` (E402).
     """
     if count < 1:
         raise ValueError(f"count must be at least 1, not {count}")
-    used = np.flatnonzero(metric.mass > 0)
-    area = metric.mass.sum()
-    root = np.sqrt(metric.mass[used] / area)  # unit area inside: nothing below depends on the size of the surface
-    normal = sp.diags(1 / root) @ stiffness(metric)[used][:, used] @ sp.diags(1 / root)
-    values, vectors = _smallest(normal.tocsc(), min(count, len(used)))
-    functions = np.zeros((metric.mesh.n_vertices, len(values)))
-    functions[used] = vectors / (root * np.sqrt(area))[:, None]
+    area, n = metric.mass.sum(), metric.mesh.n_vertices
+    free = np.flatnonzero(metric.mass > 0 if fixed is None else (metric.mass > 0) & ~fixed)
+    if len(free) == 0:
+        return Spectrum(metric.mesh, metric.mass, np.zeros(0), np.zeros((n, 0)))
+    a, b = stiffness(metric)[free][:, free], mass(metric).tocsr()[free][:, free] / area  # unit area: no unit of length
+    if not (np.all(np.isfinite(a.data)) and np.all(np.isfinite(b.data))):
+        raise EigensolverFailed("the stiffness or mass matrix is not finite")
+    values, vectors = _generalised(a, b, min(count, len(free)))
+    functions = np.zeros((n, len(values)))
+    functions[free] = vectors / np.sqrt(area)
     return Spectrum(metric.mesh, metric.mass, np.maximum(values, 0) / area, functions)
 
 
-def _smallest(matrix: sp.csc_matrix, count: int) -> tuple[Array, Array]:
-    """The smallest eigenpairs of a symmetric positive semi-definite matrix, ascending."""
-    n = matrix.shape[0]
-    if count > n // 3 or n < 100:
-        values, vectors = scipy.linalg.eigh(matrix.toarray(), subset_by_index=(0, count - 1))
-        return values, vectors
-    start = np.random.default_rng(0).standard_normal(n)
+def _generalised(a: sp.csr_matrix, b: sp.csr_matrix, count: int) -> tuple[Array, Array]:
+    """The smallest eigenpairs of A x = lambda B x, ascending, x orthonormal in B."""
+    if b.nnz == b.shape[0]:
+        root = 1 / np.sqrt(b.diagonal())
+        values, vectors = smallest_eigenpairs((sp.diags(root) @ a @ sp.diags(root)).tocsc(), count)
+        return values, root[:, None] * vectors
+    n = a.shape[0]
+    if n < 400 or 4 * count > n:
+        return scipy.linalg.eigh(a.toarray(), b.toarray(), subset_by_index=(0, count - 1))
     try:
-        values, vectors = sla.eigsh(matrix, count, sigma=-1e-2, v0=start)
+        start = np.random.default_rng(0).standard_normal(n)  # ones would miss eigenfunctions of symmetric surfaces
+        values, vectors = sla.eigsh(a.tocsc(), count, b.tocsc(), sigma=-1e-2, v0=start)
     except (RuntimeError, sla.ArpackError) as error:
         raise EigensolverFailed(f"the {count} smallest eigenpairs of {n} vertices were not found ({error})") from error
     order = np.argsort(values)
