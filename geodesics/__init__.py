@@ -69,7 +69,7 @@ _NAMES = {
     ),
     "spectrum": ("Spectrum", "eigenpairs"),
 }
-_SUBMODULES = ("intrinsic", "metrics", "repair", "topology", "tracing")
+_SUBMODULES = ("check", "intrinsic", "metrics", "repair", "topology", "tracing")
 _HOME = {name: module for module, names in _NAMES.items() for name in names}
 
 __all__ = sorted(_HOME)

@@ -8,6 +8,8 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
+__version__ = "0.1.0"
+
 if TYPE_CHECKING:
     from gmds.correspondence import Candidate as Candidate
     from gmds.correspondence import Correspondence as Correspondence
@@ -47,8 +49,6 @@ def __getattr__(name: str) -> Any:
         value = getattr(importlib.import_module(f"gmds.{_HOME[name]}"), name)
         globals()[name] = value
         return value
-    if name == "__version__":
-        return importlib.import_module("importlib.metadata").version("gmds")
     if name in _SUBMODULES or name in _NAMES:
         return importlib.import_module(f"gmds.{name}")
     raise AttributeError(f"module 'gmds' has no attribute {name!r}")

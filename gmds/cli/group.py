@@ -110,9 +110,9 @@ def _debug_option() -> click.Option:
 def _version_option() -> click.Option:
     def show(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
         if wanted:
-            from importlib.metadata import version
+            from gmds import __version__
 
-            click.echo(f"gmds {version('gmds')}")
+            click.echo(f"gmds {__version__}")
             ctx.exit()
 
     return click.Option(

@@ -23,7 +23,8 @@ class BadLandmarkFile(FormatError):
 def read_landmarks(path: Path) -> NDArray[np.int64] | tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Corresponding points from a text file, in a form that `match` takes.
 
-    Lines of two whole numbers give vertex pairs (k, 2), 0-based; lines of six give positions (k, 3) on both. Blanks, commas or semicolons separate; `#` starts a comment. Raises `BadLandmarkFile` naming the line.
+    Lines of two whole numbers give vertex pairs (k, 2), 0-based; lines of six give positions (k, 3) on both.
+    Blanks, commas or semicolons separate; `#` starts a comment. Raises `BadLandmarkFile` naming the line.
     """
     if path.exists() and not path.is_file():
         raise OSError(f"{path} is not a regular file")
