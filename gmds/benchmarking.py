@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from geodesics.mesh import Mesh
 from geodesics.io import atomic_write
+from geodesics.mesh import Mesh
 from gmds.correspondence import Correspondence
 from gmds.datasets import Pair
 from gmds.evaluation import coverage, geodesic_error, protocol_subset, summary

@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geodesics.errors import FormatError
-from geodesics.mesh import Mesh
 from geodesics.io import atomic_write
+from geodesics.mesh import Mesh
 from gmds.errors import MapArray, MapMembers, MapMismatch, MapVersion, PickledMember
 
 FORMAT, VERSION = "gmds-map", 1
