@@ -17,13 +17,16 @@ if TYPE_CHECKING:
     from geodesics.diffusion import DiffusionDistance as DiffusionDistance
     from geodesics.errors import FormatError as FormatError
     from geodesics.errors import MeshError as MeshError
+    from geodesics.errors import Note as Note
     from geodesics.fast_marching import GeodesicDistance as GeodesicDistance
     from geodesics.io import read_mesh as read_mesh
+    from geodesics.io import read_with_notes as read_with_notes
     from geodesics.io import write_mesh as write_mesh
     from geodesics.laplacian import galerkin_mass as galerkin_mass
     from geodesics.laplacian import lumped_mass as lumped_mass
     from geodesics.laplacian import stiffness as stiffness
     from geodesics.mesh import Mesh as Mesh
+    from geodesics.mesh import triangulate as triangulate
     from geodesics.metric import Metric as Metric
     from geodesics.metric import conformal as conformal
     from geodesics.metrics.affine import affine as affine
@@ -31,6 +34,7 @@ if TYPE_CHECKING:
     from geodesics.metrics.equi_affine import equi_affine as equi_affine
     from geodesics.metrics.min_curvature import min_curvature as min_curvature
     from geodesics.metrics.scale_invariant import scale_invariant as scale_invariant
+    from geodesics.orientation import orient_faces as orient_faces
     from geodesics.points import SurfacePoints as SurfacePoints
     from geodesics.sampling import farthest_point_sampling as farthest_point_sampling
     from geodesics.sampling import voronoi_cells as voronoi_cells
@@ -47,17 +51,18 @@ _NAMES = {
     "curvature": ("angle_defect", "gaussian_curvature"),
     "delaunay": ("intrinsic_delaunay",),
     "diffusion": ("BiharmonicDistance", "CommuteTimeDistance", "DiffusionDistance"),
-    "errors": ("FormatError", "MeshError"),
+    "errors": ("FormatError", "MeshError", "Note"),
     "fast_marching": ("GeodesicDistance",),
-    "io": ("read_mesh", "write_mesh"),
+    "io": ("read_mesh", "read_with_notes", "write_mesh"),
     "laplacian": ("galerkin_mass", "lumped_mass", "stiffness"),
-    "mesh": ("Mesh",),
+    "mesh": ("Mesh", "triangulate"),
     "metric": ("Metric", "conformal"),
     "metrics.affine": ("affine",),
     "metrics.embedded": ("embedded",),
     "metrics.equi_affine": ("equi_affine",),
     "metrics.min_curvature": ("min_curvature",),
     "metrics.scale_invariant": ("scale_invariant",),
+    "orientation": ("orient_faces",),
     "points": ("SurfacePoints",),
     "sampling": ("farthest_point_sampling", "voronoi_cells"),
     "signatures": (

@@ -127,14 +127,19 @@ def as_array(values: Any, name: str) -> NDArray[Any]:
 
 
 def check_area(v: NDArray[np.float64], f: NDArray[np.int64]) -> None:
-    """`ZeroArea` when no face has an area above what rounding of the coordinates alone would give."""
-    e1, e2 = v[f[:, 1]] - v[f[:, 0]], v[f[:, 2]] - v[f[:, 0]]
-    double_area = np.linalg.norm(np.cross(e1, e2), axis=1)
-    longest = np.sqrt(np.maximum((e1**2).sum(axis=1), (e2**2).sum(axis=1)))
-    if (double_area <= 4 * np.finfo(float).eps * np.abs(v[f]).max(axis=(1, 2)) * longest).all():
+    """`ZeroArea` when no face has an area."""
+    if is_flat(v, f).all():
         raise ZeroArea(
             f"all {len(f)} faces have zero area: their corners coincide or lie on lines, as far as float64 can tell"
         )
+
+
+def is_flat(v: NDArray[np.float64], f: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Faces whose area is no more than rounding of the coordinates alone would give, shape (m,)."""
+    a, b, c = v[f.T]
+    double_area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    longest = np.sqrt(np.maximum(((b - a) ** 2).sum(axis=1), ((c - a) ** 2).sum(axis=1)))
+    return np.asarray(double_area <= 4 * np.finfo(float).eps * np.abs(v[f]).max(axis=(1, 2)) * longest)
 
 
 def _check_range(v: NDArray[np.float64]) -> None:

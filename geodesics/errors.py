@@ -91,6 +91,12 @@ class NotTriangles(MeshError):
     code = "E109"
 
 
+class NotManifold(MeshError):
+    """An edge of more than two faces, where the algorithm needs at most two."""
+
+    code = "E110"
+
+
 class ZeroArea(MeshError):
     """Every face has zero area."""
 
@@ -167,6 +173,9 @@ class MissingExtra(ImportError):
     """An optional dependency is not installed; the message names the extra."""
 
     code = "E602"
+
+    def __str__(self) -> str:
+        return f"{self.code}: {super().__str__()}"
 
 
 class EigensolverFailed(RuntimeError):

@@ -1,0 +1,143 @@
+"""What is unusual or wrong with a mesh, as notes; nothing is changed (see `geodesics.repair`).
+
+| code | says |
+|---|---|
+| W201 | faces given more than once |
+| W202 | faces that name a vertex twice |
+| W203 | faces of zero area |
+| W204 | faces oriented against their neighbours, or a closed surface turned inside out |
+| W208 | coordinates so far from the origin that edges have lost their precision |
+| W209 | vertices far away from all others |
+| W212 | a part that has no orientation (Moebius strip) |
+| W213 | edges of more than two faces |
+| W214 | vertices at which several fans of faces meet |
+| W215 | vertices on no face |
+| W216 | several components |
+| W217 | boundary loops |
+| W218 | Euler characteristic and genus |
+| W219 | different vertices at the same position |
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics._validation import is_flat
+from geodesics.edges import components, corner_fans, degenerate_faces, edges, face_components
+from geodesics.errors import Note
+from geodesics.mesh import Mesh
+from geodesics.orientation import orientation
+from geodesics.topology import vertex_components
+
+NAMED = 100  # at most so many indices are listed in a note
+
+
+def check(mesh: Mesh) -> list[Note]:
+    """Notes on a mesh, warnings first; an empty list is never returned, as the topology is always told (W218)."""
+    notes = [note for find in _CHECKS for note in find(mesh)]
+    return sorted(notes, key=lambda note: note.severity != "warning")
+
+
+def _warn(code: str, mask: NDArray[np.bool_], sentence: str) -> list[Note]:
+    """A warning listing where `mask` holds, if anywhere; `sentence` has one place for the count."""
+    where = np.flatnonzero(mask)
+    if not len(where):
+        return []
+    return [Note(code, "warning", sentence.format(len(where)), tuple(where[:NAMED].tolist()))]
+
+
+def repeated_faces(mesh: Mesh) -> NDArray[np.bool_]:
+    """Faces of the same three vertices, in any order, as an earlier face, shape (m,)."""
+    _, first = np.unique(np.sort(mesh.faces, axis=1), axis=0, return_index=True)
+    repeated = np.ones(mesh.n_faces, dtype=bool)
+    repeated[first] = False
+    return repeated
+
+
+def flat_faces(mesh: Mesh) -> NDArray[np.bool_]:
+    """Faces of three different vertices whose area is no more than rounding of the coordinates, shape (m,)."""
+    return np.asarray(is_flat(mesh.vertices, mesh.faces) & ~degenerate_faces(mesh))
+
+
+def unreferenced_vertices(mesh: Mesh) -> NDArray[np.bool_]:
+    """Vertices on no face, shape (n,)."""
+    unused = np.ones(mesh.n_vertices, dtype=bool)
+    unused[mesh.faces] = False
+    return unused
+
+
+def _faces(mesh: Mesh) -> Iterable[Note]:
+    yield from _warn("W201", repeated_faces(mesh), "{} faces repeat an earlier face")
+    yield from _warn("W202", degenerate_faces(mesh), "{} faces name a vertex twice")
+    yield from _warn("W203", flat_faces(mesh), "{} faces have zero area")
+
+
+def _orientation(mesh: Mesh) -> Iterable[Note]:
+    found = orientation(mesh)
+    yield from _warn("W204", found.turn, "{} faces are oriented against their neighbours")
+    yield from _warn("W204", found.inward, "{} faces belong to closed parts that are inside out")
+    yield from _warn("W212", found.one_sided, "{} faces belong to a part that has no orientation, like a Moebius strip")
+
+
+def _manifold(mesh: Mesh) -> Iterable[Note]:
+    table = edges(mesh)
+    where = table.ends[table.n_faces > 2]
+    if len(where):
+        message = f"{len(where)} edges have more than two faces, first the one between vertices {where[0].tolist()}"
+        yield Note("W213", "warning", message, tuple(np.unique(where)[:NAMED].tolist()))
+    sound = ~degenerate_faces(mesh)
+    _, first = np.unique(corner_fans(mesh)[sound], return_index=True)
+    fans = np.bincount(mesh.faces[sound].ravel()[first], minlength=mesh.n_vertices)
+    yield from _warn("W214", fans > 1, "{} vertices join several fans of faces")
+
+
+def _vertices(mesh: Mesh) -> Iterable[Note]:
+    yield from _warn("W215", unreferenced_vertices(mesh), "{} vertices are on no face")
+    _, first = np.unique(mesh.vertices + 0.0, axis=0, return_index=True)
+    repeated = np.ones(mesh.n_vertices, dtype=bool)
+    repeated[first] = False
+    yield from _warn("W219", repeated, "{} vertices are at the position of an earlier one")
+    distance = np.linalg.norm(mesh.vertices - np.median(mesh.vertices, axis=0), axis=1)
+    yield from _warn("W209", distance > 20 * np.median(distance), "{} vertices are far away from all others")
+
+
+def _precision(mesh: Mesh) -> Iterable[Note]:
+    table = edges(mesh)
+    if not len(table.ends):
+        return
+    a, b = mesh.vertices[table.ends.T]
+    length = float(np.median(np.linalg.norm(a - b, axis=1)))
+    step = float(np.spacing(np.abs(mesh.vertices).max()))
+    if step > 1e-6 * length:
+        message = (
+            f"the coordinates are only exact to {step:.1e}, edges are {length:.1e} long; move the mesh to the origin"
+        )
+        yield Note("W208", "warning", message)
+
+
+def _topology(mesh: Mesh) -> Iterable[Note]:
+    table, sound = edges(mesh), ~degenerate_faces(mesh)
+    parts = int(vertex_components(mesh).max()) + 1
+    if parts > 1:
+        sizes = np.sort(np.bincount(vertex_components(mesh)[vertex_components(mesh) >= 0]))[::-1]
+        yield Note("W216", "warning", f"{parts} components, of {', '.join(map(str, sizes[:5]))} vertices")
+    fan_labels, fans = np.unique(corner_fans(mesh)[sound], return_inverse=True)
+    rim = (table.n_faces[table.of_side] == 1)[sound]
+    fans = fans.reshape(-1, 3)
+    start, end = fans[rim], np.roll(fans, -1, axis=1)[rim]
+    loops = len(np.unique(components(start, end, len(fan_labels))[start]))
+    if loops:
+        yield Note("W217", "info", f"{loops} boundary loops with {len(start)} edges")
+    euler = len(np.unique(mesh.faces[sound])) - len(table.ends) + int(sound.sum())
+    message = f"Euler characteristic {euler}"
+    if (table.n_faces <= 2).all() and not orientation(mesh).one_sided.any():
+        pieces = len(np.unique(face_components(mesh)[sound]))
+        split = len(fan_labels) - len(table.ends) + int(sound.sum())
+        message += f", genus {(2 * pieces - loops - split) // 2}"
+    yield Note("W218", "info", message)
+
+
+_CHECKS: list[Callable[[Mesh], Iterable[Note]]] = [_faces, _orientation, _manifold, _vertices, _precision, _topology]
