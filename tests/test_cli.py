@@ -17,7 +17,7 @@ from click.testing import CliRunner, Result
 from shapes import bumpy_sphere
 
 import gmds
-from geodesics import Mesh, SurfacePoints, write_mesh
+from geodesics import Mesh, SurfacePoints, read_mesh, write_mesh
 from gmds.cli import main
 from gmds.cli.landmark_file import BadLandmarkFile, read_landmarks
 from gmds.correspondence import Correspondence, MatchStatus
@@ -27,6 +27,11 @@ COMMANDS = main.command_names
 
 def run(*args: object) -> Result:
     return CliRunner().invoke(main, [str(arg) for arg in args])
+
+
+def arrays(path: Path) -> dict[str, Any]:
+    with np.load(path, allow_pickle=False) as archive:
+        return dict(archive)
 
 
 def by_index(source: Mesh, target: Mesh, **options: Any) -> Correspondence:
@@ -84,7 +89,7 @@ def test_match_writes_the_map_and_says_so(stand_in: None, pair: tuple[Path, Path
     said = json.loads(result.stdout)
     assert said["status"] == "GOOD"
     assert said["valid"] == "162 of 162"
-    assert (np.load(tmp_path / "map.npz")["vertex"] == np.arange(162)).all()
+    assert (arrays(tmp_path / "map.npz")["vertex"] == np.arange(162)).all()
     assert by_index.options["rng"] == 7  # type: ignore[attr-defined]
     assert by_index.options["distance"] is None  # type: ignore[attr-defined]
 
@@ -237,6 +242,32 @@ def test_check_tells_what_is_wrong(tmp_path: Path) -> None:
     said = json.loads(run("check", tmp_path / "m.off", "--json").stdout)
     assert (said["vertices"], said["faces"]) == (5, 2)
     assert {"W201", "W215"} <= {note["code"] for note in said["notes"]}
+
+
+def test_repair_drops_what_is_wrong_and_says_where_the_rest_was(tmp_path: Path) -> None:
+    (tmp_path / "m.off").write_text("OFF\n5 3 0\n9 9 9\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 1 2 3\n3 1 2 3\n3 2 3 4\n")
+    result = run("repair", tmp_path / "m.off", "-o", tmp_path / "n.off", "--maps", tmp_path / "maps.npz", "--json")
+    assert result.exit_code == 0, result.output
+    said = json.loads(result.stdout)
+    assert (said["vertices"], said["faces"]) == (4, 2)
+    assert {note["code"] for note in said["notes"]} == {"W201", "W204", "W215"}
+    maps = arrays(tmp_path / "maps.npz")
+    assert maps["vertex"].tolist() == [1, 2, 3, 4]
+    assert maps["face"].tolist() == [0, 2]
+
+
+def test_repair_reduces(tmp_path: Path) -> None:
+    shape = bumpy_sphere(3)
+    write_mesh(shape, tmp_path / "m.ply")
+    result = run(
+        "repair", tmp_path / "m.ply", "-o", tmp_path / "n.ply", "--decimate", 300, "--maps", tmp_path / "maps.npz"
+    )
+    assert result.exit_code == 0, result.output
+    reduced = read_mesh(tmp_path / "n.ply")
+    assert abs(reduced.n_faces - 300) < 10
+    vertex = arrays(tmp_path / "maps.npz")["vertex"]
+    assert np.median(np.linalg.norm(reduced.vertices - shape.vertices[vertex], axis=1)) < 0.2
+    assert run("repair", tmp_path / "m.ply", "-o", "x.off", "--remesh", 99, "--maps", "y.npz").exit_code == 2
 
 
 def test_landmark_files(tmp_path: Path) -> None:
