@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 import scipy.sparse as sp
-import scipy.sparse.linalg as sla
 from numpy.typing import NDArray
 
 from geodesics import intrinsic
+from geodesics._sparse import factorised
 from geodesics.delaunay import IntrinsicTriangulation, intrinsic_delaunay
 from geodesics.laplacian import cotangent_matrix, vertex_areas, vertex_sums
 from geodesics.mesh import Mesh
 from geodesics.topology import boundary_vertices
 
 Array = NDArray[np.float64]
+
+# chosen on half of the shapes of benchmarks/curvature_stability.py
+SMOOTHING = 8e-3
+COARSE = 3e-3  # of the area of the surface
 
 
 def angle_defect(mesh: Mesh) -> Array:
@@ -43,29 +47,35 @@ def one_ring_curvature(mesh: Mesh) -> Array:
     return np.divide(3 * defect, area, out=np.zeros_like(area), where=area > 0)
 
 
-def gaussian_curvature(mesh: Mesh, smoothing: float = 3e-4) -> Array:
-    """Gaussian curvature K (n,) in units of 1 / length^2: the angle defect after one implicit heat step.
+def gaussian_curvature(mesh: Mesh, smoothing: float = SMOOTHING) -> Array:
+    """Gaussian curvature K (n,) in units of 1 / length^2: the angle defect, smoothed so that remeshing keeps it.
 
-    (A + tau W) K = defect with tau = smoothing * area. The boundary has no curvature of its own and takes over that
-    of its neighbourhood.
+    One implicit heat step (A + div(tau grad)) K = defect whose time tau at each place is `smoothing` times the area of
+    the sphere of the same curvature: a part that grows is smoothed as it was, so |K| dA is invariant to local scale as
+    well. The boundary has no curvature of its own and takes over that of its neighbourhood. `smoothing` 0 gives K_i of
+    (4.5) with vertex areas of the intrinsic Delaunay triangulation.
     """
+    triangulation = intrinsic_delaunay(mesh)
     interior = ~boundary_vertices(mesh)
-    return smoothed_density(intrinsic_delaunay(mesh), np.where(interior, angle_defect(mesh), 0.0), interior, smoothing)
+    defect = np.where(interior, angle_defect(mesh), 0.0)
+    time = curvature_time(triangulation, defect, interior, smoothing)
+    return smoothed_density(triangulation, defect, interior, time)
 
 
-def mean_curvature(mesh: Mesh, smoothing: float = 3e-4) -> Array:
+def mean_curvature(mesh: Mesh, smoothing: float = SMOOTHING) -> Array:
     """Mean curvature H (n,) in units of 1 / length, positive where the surface bends away from its normals (a sphere).
 
     2 H n is the Laplacian of position (W x = 2 A H n), smoothed as `gaussian_curvature`; needs oriented faces.
     """
-    triangulation = intrinsic_delaunay(mesh)
-    laplacian = cotangent_matrix(triangulation, mesh.n_vertices) @ (mesh.vertices - mesh.vertices.mean(axis=0))
+    triangulation, n = intrinsic_delaunay(mesh), mesh.n_vertices
+    laplacian = cotangent_matrix(triangulation, n) @ (mesh.vertices - mesh.vertices.mean(axis=0))
     interior = ~boundary_vertices(mesh)
     bend = np.where(interior, 0.5 * (laplacian * vertex_normals(mesh)).sum(axis=1), 0.0)
-    return smoothed_density(triangulation, bend, interior, smoothing)
+    time = curvature_time(triangulation, np.where(interior, angle_defect(mesh), 0.0), interior, smoothing)
+    return smoothed_density(triangulation, bend, interior, time)
 
 
-def principal_curvatures(mesh: Mesh, smoothing: float = 3e-4) -> tuple[Array, Array]:
+def principal_curvatures(mesh: Mesh, smoothing: float = SMOOTHING) -> tuple[Array, Array]:
     """Principal curvatures k1 >= k2, each (n,) in units of 1 / length: H +- sqrt(H^2 - K), the root cut off at 0."""
     h = mean_curvature(mesh, smoothing)
     root = np.sqrt(np.maximum(h**2 - gaussian_curvature(mesh, smoothing), 0))
@@ -83,17 +93,31 @@ def vertex_normals(mesh: Mesh) -> Array:
     return total / np.where(size > 0, size, 1)
 
 
-def smoothed_density(
-    triangulation: IntrinsicTriangulation, amounts: Array, interior: NDArray[np.bool_], smoothing: float
+def curvature_time(
+    triangulation: IntrinsicTriangulation, defect: Array, interior: NDArray[np.bool_], smoothing: float
 ) -> Array:
-    """Density (n,) of amounts per vertex (n,) after one implicit heat step of time smoothing * area.
+    """`smoothing` times the area 4 pi / |K| of the sphere of the same curvature, per face (m,), from a coarse look at K.
+
+    At most `smoothing` times the area of the surface, where it is flat.
+    """
+    area = intrinsic.areas(triangulation.l_sq).sum()
+    coarse = smoothed_density(triangulation, defect, interior, np.full(len(triangulation.faces), COARSE * area))
+    curvature = np.hypot(coarse, 4 * np.pi / area)[triangulation.faces].mean(axis=1)
+    return smoothing * 4 * np.pi / curvature
+
+
+def smoothed_density(
+    triangulation: IntrinsicTriangulation, amounts: Array, interior: NDArray[np.bool_], time: Array
+) -> Array:
+    """Density (n,) of amounts per vertex (n,) after one implicit heat step of time (m,) per face, in units of area.
 
     Where `interior` is False nothing was measured, and the value comes from the neighbours alone.
     """
-    area = vertex_areas(triangulation, len(amounts))
+    n = len(amounts)
+    area = vertex_areas(triangulation, n)
     used = np.flatnonzero(area > 0)
     weight = np.where(interior, area, 1e-9 * area)[used]  # a little, or a part that is all boundary is singular
-    w = cotangent_matrix(triangulation, len(amounts))[used][:, used]
-    density = np.zeros(len(amounts))
-    density[used] = sla.splu((sp.diags(weight) + smoothing * area.sum() * w).tocsc()).solve(amounts[used])
+    diffusion = cotangent_matrix(triangulation, n, time)[used][:, used]
+    density = np.zeros(n)
+    density[used] = factorised(sp.diags(weight) + diffusion).solve(amounts[used])
     return density

@@ -8,6 +8,7 @@ import scipy.sparse as sp
 import scipy.sparse.linalg as sla
 from numpy.typing import NDArray
 
+from geodesics._sparse import factorised
 from geodesics.errors import EigensolverFailed
 
 Array = NDArray[np.float64]
@@ -18,10 +19,11 @@ _DENSE = 400  # below this size a dense solver is as fast
 def smallest_eigenpairs(
     matrix: sp.csc_matrix, count: int, *, shift: float = 1e-2, tolerance: float = 1e-8
 ) -> tuple[Array, Array]:
-    """Eigenvalues (k,) ascending and orthonormal eigenvectors (n, k), k = min(count, n); residuals <= tolerance * lambda.
+    """Eigenvalues (k,) ascending and orthonormal eigenvectors (n, k), k = min(count, n).
 
-    `matrix` (n, n) is symmetric positive semi-definite, with the wanted eigenvalues large against `shift`. Parts of it
-    that are not linked are solved apart, so equal parts give multiple eigenvalues. Raises `EigensolverFailed`.
+    Residuals are at most tolerance * lambda. `matrix` (n, n) is symmetric positive semi-definite, with the wanted
+    eigenvalues large against `shift`. Parts of it that are not linked are solved apart, so equal parts give multiple
+    eigenvalues. Raises `EigensolverFailed`.
     """
     n_parts, part = sp.csgraph.connected_components(matrix, directed=False)
     if n_parts == 1:
@@ -43,12 +45,7 @@ def _of_one_part(matrix: sp.csc_matrix, count: int, shift: float, tolerance: flo
     if n < _DENSE or 4 * count > n:
         return scipy.linalg.eigh(matrix.toarray(), subset_by_index=(0, count - 1))
     try:
-        factor = sla.splu(
-            (matrix + shift * sp.identity(n)).tocsc(),
-            permc_spec="MMD_AT_PLUS_A",
-            diag_pivot_thresh=0.0,
-            options={"SymmetricMode": True},
-        )
+        factor = factorised(matrix + shift * sp.identity(n))
     except RuntimeError as error:
         raise EigensolverFailed(f"the matrix of {n} vertices could not be factorised ({error})") from error
     inverse, vectors = _largest_of_inverse(factor, n, count, tolerance)

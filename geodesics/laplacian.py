@@ -14,14 +14,16 @@ from geodesics.metric import Metric
 Array = NDArray[np.float64]
 
 
-def cotangent_matrix(triangulation: IntrinsicTriangulation, n: int) -> sp.csr_matrix:
+def cotangent_matrix(triangulation: IntrinsicTriangulation, n: int, conductivity: Array | None = None) -> sp.csr_matrix:
     """The positive semi-definite matrix W (n, n) with off-diagonal entries -(cot alpha + cot beta) / 2.
 
     This is a_kl of (4.4) for the metric that the squared edge lengths describe. Any faces will do: an edge may have
-    one face (free boundary: Neumann), two, or more.
+    one face (free boundary: Neumann), two, or more. With a conductivity c (m,) per face it is the matrix of -div(c grad).
     """
     faces, l_sq = triangulation
     half_cot = 0.5 * intrinsic.cotangents(l_sq)
+    if conductivity is not None:
+        half_cot *= conductivity[:, None]
     i, j = faces[:, [1, 2, 0]], faces[:, [2, 0, 1]]
     off = sp.coo_matrix((-half_cot.ravel(), (i.ravel(), j.ravel())), shape=(n, n))
     off = (off + off.T).tocsr()

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geodesics import intrinsic
-from geodesics.curvature import smoothed_density
+from geodesics.curvature import SMOOTHING, curvature_time, smoothed_density
 from geodesics.delaunay import IntrinsicTriangulation
 from geodesics.laplacian import vertex_sums
 from geodesics.mesh import Mesh
@@ -17,7 +17,7 @@ from geodesics.topology import boundary_vertices
 Array = NDArray[np.float64]
 
 
-def affine(mesh: Mesh, *, regularisation: float = 1.0, smoothing: float = 3e-4) -> Metric:
+def affine(mesh: Mesh, *, regularisation: float = 1.0, smoothing: float = SMOOTHING) -> Metric:
     """The metric |K^eq| g^eq (sec. 2), K^eq the Gaussian curvature of the equi-affine metric g^eq.
 
     |K^eq| is regularised as |K| is below (2.1), with the equi-affine area. Invariant to affine maps as far as
@@ -29,7 +29,9 @@ def affine(mesh: Mesh, *, regularisation: float = 1.0, smoothing: float = 3e-4) 
     interior = ~boundary_vertices(mesh)
     interior &= np.bincount(faces.ravel(), minlength=n) > 0
     defect = np.where(interior, 2 * np.pi - vertex_sums(faces, intrinsic.angles(l_sq), n), 0.0)
-    curvature = smoothed_density(IntrinsicTriangulation(faces, l_sq), defect, interior, smoothing)
+    triangulation = IntrinsicTriangulation(faces, l_sq)
+    time = curvature_time(triangulation, defect, interior, smoothing)
+    curvature = smoothed_density(triangulation, defect, interior, time)
     epsilon = regularisation * 4 * np.pi / intrinsic.areas(l_sq).sum()
     factor = np.hypot(curvature, epsilon)[faces].mean(axis=1)
     return metric_of_tensor(mesh, tensor * factor[:, None, None])

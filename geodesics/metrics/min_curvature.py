@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from geodesics.curvature import principal_curvatures
+from geodesics.curvature import SMOOTHING, principal_curvatures
 from geodesics.mesh import Mesh
 from geodesics.metric import Metric, conformal
 from geodesics.metrics._regularised import regularised
 
 
-def min_curvature(mesh: Mesh, *, regularisation: float = 1.0, smoothing: float = 3e-4) -> Metric:
+def min_curvature(mesh: Mesh, *, regularisation: float = 1.0, smoothing: float = SMOOTHING) -> Metric:
     """The metric kappa_min^2 g of (7.1), kappa_min^2 = (sqrt(H^2 - K) - |H|)^2, regularised as |K| is below (2.1).
 
     Scale invariant, but bending changes it. The paper names it and leaves it unexplored.

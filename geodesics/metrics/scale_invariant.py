@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from geodesics.curvature import gaussian_curvature
+from geodesics.curvature import SMOOTHING, gaussian_curvature
 from geodesics.mesh import Mesh
 from geodesics.metric import Metric, conformal
 from geodesics.metrics._regularised import regularised
 
 
 def scale_invariant(
-    mesh: Mesh, *, exponent: float = 1.0, regularisation: float = 1.0, smoothing: float = 3e-4
+    mesh: Mesh, *, exponent: float = 1.0, regularisation: float = 1.0, smoothing: float = SMOOTHING
 ) -> Metric:
     """The metric |K|^a g (eq. (2.1), Theorem 2.1), regularised as (K^2 + eps^2)^(a/2) g.
 
