@@ -20,7 +20,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class GeodesicDistance:
-    """Geodesic distance in a metric (sec. 6), marched over the surface from each point.
+    """Geodesic distance in a metric (the abstract's scale invariant geodesics), marched over the surface from each point.
 
     A conformal metric is marched over the intrinsic Delaunay triangulation of the embedded one, whose angles it
     shares; any other metric over the mesh's own faces. `threads` bounds how many sources are marched at once; the

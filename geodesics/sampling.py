@@ -31,7 +31,7 @@ class Distance(Protocol):
 
 
 def farthest_point_sampling(distance: Distance, count: int, first: int | None = None) -> Integers:
-    """`count` vertices (count,), each the farthest from those before it (Gonzalez 1985; the sampling of sec. 6).
+    """`count` vertices (count,), each the farthest from those before it (Gonzalez 1985; sec. 5, Fig. 6).
 
     Starts at vertex `first`, else at the vertex farthest from the centroid. Every component of at least four vertices
     gets its sample; an isolated vertex is never chosen. Raises `ValueError` when `count` is more than there are.
@@ -53,7 +53,7 @@ def farthest_point_sampling(distance: Distance, count: int, first: int | None = 
 
 
 def voronoi_cells(distance: Distance, samples: ArrayLike) -> Integers:
-    """The index into `samples` (count,) of the nearest one for every vertex (n,); -1 where none is reachable."""
+    """The index into `samples` (count,) of the nearest one for every vertex (n,), as in Fig. 6; -1 if none is reachable."""
     mesh = distance.mesh
     samples = np.asarray(samples, dtype=np.int64).reshape(-1)
     nearest, cell = np.full(mesh.n_vertices, np.inf), np.full(mesh.n_vertices, -1, dtype=np.int64)
