@@ -7,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from geodesics._front import corners, fresh_front, seeds
 from geodesics._kernels import marching
@@ -20,7 +20,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class GeodesicDistance:
-    """Geodesic distance in a metric (the abstract's scale invariant geodesics), marched over the surface from each point.
+    """Geodesic distance in any metric, marched over the surface: the scale invariant geodesics of the abstract.
 
     A conformal metric is marched over the intrinsic Delaunay triangulation of the embedded one, whose angles it
     shares; any other metric over the mesh's own faces. `threads` bounds how many sources are marched at once; the

@@ -53,7 +53,7 @@ def farthest_point_sampling(distance: Distance, count: int, first: int | None = 
 
 
 def voronoi_cells(distance: Distance, samples: ArrayLike) -> Integers:
-    """The index into `samples` (count,) of the nearest one for every vertex (n,), as in Fig. 6; -1 if none is reachable."""
+    """The index into `samples` (count,) of the nearest one for every vertex (n,), or -1: the cells of Fig. 6."""
     mesh = distance.mesh
     samples = np.asarray(samples, dtype=np.int64).reshape(-1)
     nearest, cell = np.full(mesh.n_vertices, np.inf), np.full(mesh.n_vertices, -1, dtype=np.int64)

@@ -14,6 +14,11 @@ if TYPE_CHECKING:
     from gmds.correspondence import Candidate as Candidate
     from gmds.correspondence import Correspondence as Correspondence
     from gmds.correspondence import MatchStatus as MatchStatus
+    from gmds.deformations import bending as bending
+    from gmds.deformations import global_scale as global_scale
+    from gmds.deformations import local_scaling as local_scaling
+    from gmds.deformations import noise as noise
+    from gmds.deformations import remeshing as remeshing
     from gmds.evaluation import ErrorSummary as ErrorSummary
     from gmds.evaluation import error_curve as error_curve
     from gmds.evaluation import geodesic_error as geodesic_error
@@ -31,6 +36,7 @@ if TYPE_CHECKING:
 # every public name, by the module it lives in
 _NAMES = {
     "correspondence": ("Candidate", "Correspondence", "MatchStatus"),
+    "deformations": ("bending", "global_scale", "local_scaling", "noise", "remeshing"),
     "evaluation": ("ErrorSummary", "error_curve", "geodesic_error", "summary"),
     "losses": ("Huber", "LeastSquares", "Minimax", "Power"),
     "matching": ("match",),
@@ -38,7 +44,7 @@ _NAMES = {
     "solver": ("Solution", "solve"),
     "status": ("Status",),
 }
-_SUBMODULES = ("benchmarking", "datasets", "deformations", "errors", "initialization", "pictures", "report", "shapes")
+_SUBMODULES = ("benchmarking", "datasets", "errors", "initialization", "pictures", "report", "shapes")
 _HOME = {name: module for module, names in _NAMES.items() for name in names}
 
 __all__ = sorted(_HOME)
