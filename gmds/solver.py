@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geodesics import SurfacePoints
-from gmds.descent import LONGEST, SHORTEST, Descent, descend
+from gmds.descent import Settler
 from gmds.errors import SolverError
 from gmds.losses import LeastSquares, Loss
+from gmds.pairwise import FieldPairs
 from gmds.problem import Problem
+from gmds.remarching import remarch
 from gmds.status import Status
 
 Array = NDArray[np.float64]
-WALLED = 0.02
-"""First trust region of the walled descent, in mean distances."""
-
 
 @dataclass(frozen=True, eq=False)
 class Solution:
@@ -47,13 +46,14 @@ def solve(
     tolerance: float = 1e-3,
     progress: Callable[[str, float], None] | None = None,
 ) -> Solution:
-    """Lower the loss of the residuals from `start` (p,), surface points of the target; least squares unless said.
+    """Lower the loss of the residuals (sec. 5) from `start` (p,), points of the target; least squares unless said.
 
     Each of at most `max_iterations` rounds linearises the distances at the points, asks the loss for a step within
     the trust region, walks the points straight across the faces, and keeps them there if the stress falls; else the
     region shrinks. When the linearised problem foretells less than `tolerance` times the stress, or no step helps, a
     second descent keeps every point in its face, in each of the faces in turn for points on edges and vertices, where
-    the distances have kinks. The stress never rises. `progress` is called with a stage and a fraction.
+    the distances have kinks. The stress never rises. Fields of geodesic distances stay frozen through both descents
+    and are then marched anew, until that brings nothing. `progress` is called with a stage and a fraction.
     Raises `SolverError` (E403) when the stress is not finite at the start, `ValueError` when `start` does not fit.
     """
     loss = LeastSquares() if loss is None else loss
@@ -66,10 +66,11 @@ def solve(
         if progress is not None:
             progress("embedding", iteration / max_iterations)
 
-    radius = float(np.clip(2 * np.sqrt(np.mean(here.residuals**2)), SHORTEST, LONGEST))
-    state = descend(Descent(here, stress, radius), loss, False, tolerance, max_iterations, report)
-    if state.status is not Status.ITERATION_LIMIT and state.foretold > 0:
-        state = descend(replace(state, radius=WALLED), loss, True, tolerance, max_iterations, report)
+    settle = Settler(loss, tolerance, report)
+    if isinstance(here.pairs, FieldPairs):
+        state = remarch(here, settle, max_iterations)
+    else:
+        state = settle(here, max_iterations)
     certificate = state.foretold / state.stress if state.stress > 0 else 0.0
     return Solution(
         state.here.points, state.stress, state.here.residuals, state.status, certificate, state.radius, state.iteration
