@@ -69,7 +69,9 @@ def _inward(mesh: Mesh, turn: NDArray[np.bool_], part: NDArray[np.int64]) -> NDA
     corner = mesh.vertices[mesh.faces]
     middle = np.stack([np.bincount(part, weights=axis) for axis in corner.mean(axis=1).T], axis=1)
     corner = corner - (middle / np.bincount(part)[:, None])[part][:, None]
-    volume = np.einsum("fi,fi->f", corner[:, 0], np.cross(corner[:, 1], corner[:, 2]))
+    normal = np.cross(corner[:, 1], corner[:, 2])
+    volume = np.einsum("fi,fi->f", corner[:, 0], normal)
     total = np.bincount(part, weights=np.where(turn, -volume, volume))
-    rounding = 1e-9 * np.bincount(part, weights=np.abs(volume))  # a part folded flat has no inside
+    size = np.linalg.norm(corner[:, 0], axis=1) * np.linalg.norm(normal, axis=1)
+    rounding = 1e-9 * np.bincount(part, weights=size)  # a part folded flat has no inside
     return np.asarray(((total < -rounding) & ~is_open)[part])

@@ -44,7 +44,7 @@ def read_mesh(path: str | os.PathLike[str]) -> Mesh:
 def read_with_notes(path: str | os.PathLike[str]) -> tuple[Mesh, list[Note]]:
     """As `read_mesh`, with notes on what reading had to change: split polygons (W210), welded corners (W211)."""
     path = Path(path)
-    if not path.suffix and not path.exists() and tosca_paths(path)[0].exists():
+    if not path.exists() and tosca_paths(path)[0].exists():
         contents = read_tosca(path)
     else:
         data = read_bytes(path)
@@ -61,7 +61,7 @@ def write_mesh(mesh: Mesh, path: str | os.PathLike[str]) -> None:
     Each file is complete or untouched. OFF, OBJ, PLY and TOSCA keep every bit; STL and GLB are single precision.
     """
     path = Path(path)
-    for suffix, data in encode(mesh, path.suffix.lower()).items():
-        written_as = path if suffix == path.suffix.lower() else path.with_suffix(suffix)
+    for suffix, data in encode(Mesh.from_object(mesh), path.suffix.lower()).items():
+        written_as = path.with_suffix(suffix.upper() if path.suffix.isupper() else suffix)
         with atomic_write(written_as) as stream:
             stream.write(data)

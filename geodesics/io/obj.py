@@ -7,7 +7,7 @@ from pathlib import Path
 
 from geodesics.errors import BadPolygon, IndexOutOfRange, TruncatedFile
 from geodesics.io.text import Contents, Row, fan, numbers, rows, whole
-from geodesics.io.truncation import refuse_cut_index
+from geodesics.io.truncation import refuse_cut_face
 
 _DECLARED = re.compile(rb"^#[ \t]*(vertices|faces)[ \t]*:[ \t]*(\d{1,18})[ \t]*\r?$", re.IGNORECASE | re.MULTILINE)
 
@@ -27,8 +27,8 @@ def read_obj(data: bytes, path: Path) -> Contents:
     vertices = numbers(vertex_rows, 1, path)
     faces = [_corners(row, defined, len(vertices), path) for row, defined in polygons]
     _check_declared(data, len(vertices), len(faces), path)
-    if last[0] == "f" and "/" not in last[-1]:
-        refuse_cut_index(data, faces, len(vertices), 1, path)
+    if last[0] == "f":
+        refuse_cut_face(data, faces, len(vertices), 1, path, any_size=True)
     triangles, notes = fan(faces)
     return Contents(vertices, triangles, notes)
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from geodesics.errors import BadCount, TruncatedFile, UnknownFormat
 from geodesics.io.text import Contents, Row, corners, count, fan, numbers, rows
-from geodesics.io.truncation import refuse_cut_index
+from geodesics.io.truncation import refuse_cut_face
 
 
 def read_off(data: bytes, path: Path) -> Contents:
@@ -40,6 +40,6 @@ def _read_body(header: Row, body: list[Row], data: bytes, path: Path) -> Content
     vertices = numbers(body[:n_vertices], 0, path)
     polygons = [corners(row, 0, n_vertices, 0, path) for row in body[n_vertices : n_vertices + n_faces]]
     if len(body) == n_vertices + n_faces:
-        refuse_cut_index(data, polygons, n_vertices, 0, path)
+        refuse_cut_face(data, polygons, n_vertices, 0, path)
     triangles, notes = fan(polygons)
     return Contents(vertices, triangles, notes)

@@ -11,8 +11,8 @@ from geodesics.errors import EmptyFile, LineTooLong, NotAFile, UnknownFormat
 
 LONGEST_LINE = 1 << 20
 _SUPPORTED = "OFF, OBJ, PLY, STL, GLB, and TOSCA .vert/.tri"
-_OFF = re.compile(rb"\s*(#[^\r\n]*\s*)*(ST)?C?N?4?N?OFF\b", re.IGNORECASE)
-_OBJ = re.compile(rb"\s*(#[^\r\n]*\s*)*(v|vn|vt|vp|f|o|g|s|mtllib|usemtl)[ \t]")
+_OFF = re.compile(rb"\s*(#[^\r\n]*[\r\n]\s*)*(ST)?C?N?4?N?OFF\b", re.IGNORECASE)
+_OBJ = re.compile(rb"\s*(#[^\r\n]*[\r\n]\s*)*(v|vn|vt|vp|f|o|g|s|mtllib|usemtl)[ \t]")
 
 
 def read_bytes(path: Path) -> bytes:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from geodesics.errors import BadPolygon, BadToken, FormatError, IndexOutOfRange, TruncatedFile
 from geodesics.io.text import Contents, Row, corners, count, fan, numbers, rows, whole
-from geodesics.io.truncation import refuse_cut_index
+from geodesics.io.truncation import refuse_cut_face
 
 _BYTES = {
     **dict.fromkeys(("char", "uchar", "int8", "uint8"), 1),
@@ -115,7 +115,7 @@ def _read_ascii(data: bytes, body: int, n_lines: int, elements: list[Element], p
             ]
             ends_with_corners = element is elements[-1] and at_corners == len(element.properties) - 1
     if ends_with_corners:
-        refuse_cut_index(data, polygons, len(vertices), 0, path)
+        refuse_cut_face(data, polygons, len(vertices), 0, path)
     triangles, notes = fan(polygons)
     return Contents(vertices, triangles, notes)
 
@@ -157,6 +157,8 @@ def _read_binary(data: bytes, path: Path) -> Contents:
         raise BadPolygon(
             f"{path}: faces of {np.unique(degrees)[:5].tolist()} corners; only one size from 3 is supported"
         )
+    if polygons.dtype.kind not in "iu":
+        raise BadToken(f"{path}: the vertex indices are of type {polygons.dtype}, not integers")
     bad = np.flatnonzero(((polygons < 0) | (polygons >= len(vertices))).any(axis=1))
     if len(bad):
         raise IndexOutOfRange(f"{path}: face {bad[0]} = {polygons[bad[0]]} refers outside the {len(vertices)} vertices")

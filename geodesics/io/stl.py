@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from io import BytesIO
 from pathlib import Path
 
@@ -21,11 +22,11 @@ def read_stl(data: bytes, path: Path) -> Contents:
         from trimesh.exchange.stl import load_stl_binary
 
         soup = np.array(load_stl_binary(BytesIO(data)).get("vertices", np.empty((0, 3))), dtype=np.float64)
-    elif b"\0" in data[:1024] or not data.rstrip()[-512:].lower().count(b"endsolid"):
+    elif not re.match(rb"\s*solid\b", data, re.IGNORECASE) or b"\0" in data[:1024]:
         declared = int.from_bytes(data[80:84], "little")
         raise TruncatedFile(
             f"{path}: neither binary STL ({declared} triangles need {84 + 50 * declared} bytes, "
-            f"the file has {len(data)}) nor ASCII STL ending in endsolid"
+            f"the file has {len(data)}) nor ASCII STL"
         )
     else:
         soup = _read_ascii(data, path)
@@ -34,7 +35,7 @@ def read_stl(data: bytes, path: Path) -> Contents:
 
 def _read_ascii(data: bytes, path: Path) -> NDArray[np.float64]:
     """Corner positions (3 m, 3) of an ASCII STL file whose every facet is complete."""
-    vertex_rows, state = [], 0
+    vertex_rows, state, keyword = [], 0, ""
     for row in rows(data, path, comment=None):
         keyword = row.words[0].lower()
         if state == 0 and keyword in ("solid", "endsolid"):
@@ -44,8 +45,8 @@ def _read_ascii(data: bytes, path: Path) -> NDArray[np.float64]:
         if keyword == "vertex":
             vertex_rows.append(row)
         state = (state + 1) % len(_FACET)
-    if state:
-        raise TruncatedFile(f"{path}: the file ends inside a facet")
+    if keyword != "endsolid":
+        raise TruncatedFile(f"{path}: the file does not end in endsolid")
     return numbers(vertex_rows, 1, path)
 
 

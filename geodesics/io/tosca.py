@@ -7,7 +7,7 @@ from pathlib import Path
 from geodesics.errors import BadPolygon, TruncatedFile
 from geodesics.io.opening import read_bytes
 from geodesics.io.text import Contents, fan, numbers, rows, vertex_index
-from geodesics.io.truncation import refuse_cut_index
+from geodesics.io.truncation import refuse_cut_face
 
 
 def tosca_paths(path: Path) -> tuple[Path, Path]:
@@ -30,6 +30,6 @@ def read_tosca(path: Path) -> Contents:
             error = TruncatedFile if len(row.words) < 3 else BadPolygon
             raise error(f"{place}: three indices expected, {len(row.words)} found")
         polygons.append([vertex_index(word, len(vertices), 1, place) for word in row.words])
-    refuse_cut_index(data, polygons, len(vertices), 1, tri)
+    refuse_cut_face(data, polygons, len(vertices), 1, tri)
     triangles, notes = fan(polygons)
     return Contents(vertices, triangles, notes)
