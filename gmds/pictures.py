@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from geodesics import Mesh
-from geodesics.io.atomic import atomic_write
+from geodesics.errors import MissingExtra
+from geodesics.io import atomic_write
 from gmds.colours import MISSING, label_colours, position_colours, value_colours
 from gmds.correspondence import Correspondence
 from gmds.rendering import render
@@ -33,7 +34,7 @@ def write_picture(
 
     With `errors` (n,) per source vertex a third view shows them on the source, else the map's distortion if it has
     any. Vertices that are not valid are grey. `up` is up in the source's coordinates; the target is turned to be
-    seen from the same side. Needs the extra `viz`; raises `OSError` when the file cannot be written.
+    seen from the same side. Raises `MissingExtra` without the extra `viz`, `OSError` when the file cannot be written.
     """
     view = broadside(answer.source, up)
     colours = position_colours(answer.target.vertices)
@@ -63,7 +64,7 @@ def write_values(
     """A PNG of surfaces side by side, each given as (caption, mesh, values per vertex (n,)).
 
     Values share one colour range; with `labels` they are whole numbers with a colour each (negative: grey).
-    Needs the extra `viz`; raises `OSError` when the file cannot be written.
+    Raises `MissingExtra` without the extra `viz`, `OSError` when the file cannot be written.
     """
     everything = np.concatenate([np.asarray(values, dtype=np.float64) for _, _, values in surfaces])
     finite = everything[np.isfinite(everything)]
@@ -77,8 +78,11 @@ def write_values(
 
 
 def _write(path: str | os.PathLike[str], panels: list[Panel], title: str) -> None:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
+    try:
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+    except ImportError as error:
+        raise MissingExtra("a picture needs matplotlib; install it with: pip install 'gmds[viz]'") from error
 
     boxes = [image.shape[1] + (70 if limits else 0) for _, image, limits in panels]
     width, tallest, head = sum(boxes), max(image.shape[0] for _, image, _ in panels), 60 if title else 34

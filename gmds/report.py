@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from geodesics import Mesh, SurfacePoints
+from geodesics.errors import MissingExtra
 from geodesics.io import atomic_write
 from gmds.colours import MISSING, position_colours, value_colours
 from gmds.correspondence import Correspondence
@@ -41,9 +42,12 @@ def write_report(
     area), and every candidate of the map; a click on the source marks the point on the target. `up` is up in the
     source's coordinates; the target is turned to be seen from the same side. Titles and names are shown as they are,
     never read as markup; scripts other than the page's own are forbidden to run.
-    Needs the extra `viz`. Raises `OSError` when the file cannot be written.
+    Raises `MissingExtra` without the extra `viz`, `OSError` when the file cannot be written.
     """
-    from plotly.offline import get_plotlyjs
+    try:
+        from plotly.offline import get_plotlyjs
+    except ImportError as error:
+        raise MissingExtra("a report needs plotly; install it with: pip install 'gmds[viz]'") from error
 
     view = broadside(answer.source, up, azimuth=0, elevation=0)
     turned = view @ alignment(answer)

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from geodesics import Mesh, MeshError, SurfacePoints, intrinsic
+from geodesics import Mesh, SurfacePoints, intrinsic
+from geodesics.errors import BadShape
 from gmds.deformations.extremities import edge_distances, extremities
 from gmds.deformations.fitting import fit
 from gmds.deformations.truths import moved
@@ -18,11 +19,11 @@ def local_scaling(mesh: Mesh, log_scale: ArrayLike) -> tuple[Mesh, SurfacePoints
 
     `log_scale` u (n,) is the natural logarithm of the wanted scale at each vertex. No surface in space has exactly
     these lengths in general: `achieved_log_scale` measures what came of it. A constant u is a similarity, exactly.
-    Raises `MeshError` when u has another shape or is not finite.
+    Raises `BadShape` when u has another shape or is not finite.
     """
     u = np.asarray(log_scale, dtype=np.float64)
     if u.shape != (mesh.n_vertices,) or not np.isfinite(u).all():
-        raise MeshError(f"log_scale must be {mesh.n_vertices} finite numbers, one per vertex; its shape is {u.shape}")
+        raise BadShape(f"log_scale must be {mesh.n_vertices} finite numbers, one per vertex; its shape is {u.shape}")
     centre = mesh.vertices.mean(axis=0)
     base = u.mean()  # the uniform part is applied exactly, the fit sees only the differences
     none = np.zeros(0, dtype=np.int64)
@@ -31,9 +32,12 @@ def local_scaling(mesh: Mesh, log_scale: ArrayLike) -> tuple[Mesh, SurfacePoints
 
 
 def achieved_log_scale(before: Mesh, after: Mesh) -> Array:
-    """Half the logarithm of the growth of the area around each vertex (n,), for meshes with the same faces."""
+    """Half the logarithm of the growth of the area around each vertex (n,), for meshes with the same faces.
+
+    Raises `BadShape` when the faces differ.
+    """
     if not np.array_equal(before.faces, after.faces):
-        raise MeshError("the two meshes must have the same faces")
+        raise BadShape("the two meshes must have the same faces")
     ring = [
         np.bincount(m.faces.ravel(), np.repeat(intrinsic.areas(intrinsic.squared_lengths(m.vertices, m.faces)), 3))
         for m in (before, after)

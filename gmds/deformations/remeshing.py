@@ -6,7 +6,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from geodesics import Mesh, MeshError, SurfacePoints
+from geodesics import Mesh, SurfacePoints
+from geodesics.errors import NotManifold
 from gmds.deformations.noise import mean_edge_length
 from gmds.triangulation import closest_points, collapse
 
@@ -18,8 +19,9 @@ def remeshing(
 
     By default with about `n_vertices` (as many as before): the mesh is subdivided until it has four times as many,
     its vertices are shaken along the surface, and the shortest edges collapse. A `remesher`, for instance
-    `geodesics.repair.remesh`, replaces all that. New triangles are chords of the old surface, so the truth is off by
-    (edge length)^2 / (8 curvature radius). Raises `MeshError` for a surface that is not a manifold.
+    `lambda m: geodesics.repair.remesh(m, 5000)`, replaces all that. New triangles are chords of the old surface, so
+    the truth is off by about (edge length)^2 / (8 curvature radius).
+    Raises `NotManifold` (E110) where sheets meet in an edge or a vertex, `ValueError` below 12 vertices.
     """
     if remesher is not None:
         result = remesher(mesh)
@@ -27,10 +29,10 @@ def remeshing(
     import igl
 
     wanted = mesh.n_vertices if n_vertices is None else n_vertices
-    if not igl.is_edge_manifold(mesh.faces)[0] or not np.all(igl.is_vertex_manifold(mesh.faces)):
-        raise MeshError("only a manifold surface can be remeshed here; repair it first, see `gmds repair`")
     if wanted < 12:
-        raise MeshError(f"n_vertices must be at least 12, not {wanted}")
+        raise ValueError(f"n_vertices must be at least 12, not {wanted}")
+    if not igl.is_edge_manifold(mesh.faces)[0] or not np.all(igl.is_vertex_manifold(mesh.faces)):
+        raise NotManifold("only a manifold surface can be remeshed; remove the faces or vertices where sheets meet")
     vertices, faces = mesh.vertices, mesh.faces
     while len(vertices) < 4 * wanted:
         vertices, faces = igl.upsample(vertices, faces, 1)

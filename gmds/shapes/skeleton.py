@@ -72,7 +72,7 @@ class Body:
             raise ValueError(f"no joint {sorted(unknown)[0]!r}; there are {', '.join(j.name for j in self.joints)}")
         weights = self.membership(x)
         for joint, w in zip(self.joints[::-1], weights[::-1], strict=True):
-            if joint.name not in moves:
+            if moves.get(joint.name, Move()) == Move():
                 continue
             move, pivot = moves[joint.name], np.array(joint.position)
             turn = Rotation.from_rotvec(w[:, None] * np.radians(move.turn))
@@ -95,4 +95,4 @@ def scaled(
         for joint in (name + "left", name + "right") if name.endswith("_") else (name,):
             move = moves.get(joint, Move())
             moves[joint] = Move(move.turn, move.scale * scale)
-    return {joint: move for joint, move in moves.items() if move != Move()}
+    return moves
