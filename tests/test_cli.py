@@ -164,6 +164,19 @@ def test_benchmark_reports_failed_pairs_by_its_exit_code(stand_in: None, tmp_pat
     assert run("benchmark", folder, "--every", 2).exit_code == 0
 
 
+def test_demo_leaves_everything_needed_to_look_and_to_judge(stand_in: None, tmp_path: Path) -> None:
+    result = run("demo", "-o", tmp_path / "demo", "--json")
+    assert result.exit_code == 0, result.output
+    said = json.loads(result.stdout)
+    assert said["regular"]["error_x100"] > 1
+    names = {path.name for path in (tmp_path / "demo").iterdir()}
+    assert names == {"map.npz", "truth.npz", "source.ply", "target.ply", "report.html", "picture.png"}
+    folder = tmp_path / "demo"
+    meshes = ["--source", folder / "source.ply", "--target", folder / "target.ply"]
+    judged = run("evaluate", folder / "map.npz", *meshes, "--truth", folder / "truth.npz", "--json")
+    assert json.loads(judged.stdout)["direct"]["mean"] == pytest.approx(said["scale_invariant"]["error_x100"])
+
+
 @pytest.mark.parametrize(
     ("args", "code"),
     [
