@@ -56,7 +56,8 @@ def intrinsic_delaunay(mesh: Mesh) -> IntrinsicTriangulation:
 def glued_delaunay(mesh: Mesh) -> GluedTriangulation:
     """The intrinsic Delaunay triangulation with neighbours and directions."""
     start = glued_faces(mesh)
-    faces, lengths, twin, direction = (a.copy() for a in (start.faces, start.lengths, start.twin, start.direction))
+    faces, lengths = start.faces.copy(), start.lengths.copy()
+    twin, direction = start.twin.copy(), start.direction.copy()
     flips.flip_to_delaunay(faces, lengths, twin, direction, 100 * len(twin) + 1000)
     direction = wrapped(direction, start.whole[faces])
     return GluedTriangulation(faces, lengths, start.origin, twin, direction, start.whole)
@@ -80,7 +81,7 @@ def proper_faces(faces: Integers) -> Integers:
 
 
 def mollified(lengths: Floats, relative: float = 1e-9) -> Floats:
-    """Lengths (m, 3) plus the least constant that makes every triangle inequality hold by a margin (Sharp, Crane 2020)."""
+    """Lengths (m, 3) plus the least constant that makes all triangle inequalities hold with a margin."""
     if len(lengths) == 0:
         return lengths
     excess = 2 * lengths.max(axis=1) - lengths.sum(axis=1)

@@ -3,28 +3,31 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from geodesics._front import corners, fresh_front, seeds
+from geodesics._front import corners, fresh_front, longest_edges
 from geodesics._kernels import marching
+from geodesics._seeds import seeds
 from geodesics.mesh import Mesh
 from geodesics.metric import Metric
 from geodesics.points import SurfacePoints
 
 Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
 class GeodesicDistance:
-    """Geodesic distance in any metric, marched over the surface: the scale invariant geodesics of the abstract.
+    """Geodesic distance in a metric (sec. 6), by fast marching (Kimmel, Sethian 1998) with unfolded sources.
 
     A conformal metric is marched over the intrinsic Delaunay triangulation of the embedded one, whose angles it
-    shares; any other metric over the mesh's own faces. `threads` bounds how many sources are marched at once; the
-    result does not depend on it.
+    shares; any other metric over the mesh's own faces. At most `threads` sources are marched at once; the numbers do
+    not depend on it.
     """
 
     metric: Metric
@@ -32,26 +35,77 @@ class GeodesicDistance:
 
     @property
     def mesh(self) -> Mesh:
-        """The mesh whose vertices distances are given at."""
+        """The mesh at whose vertices distances are given."""
         return self.metric.mesh
 
     def field(self, points: SurfacePoints, *, limit: float = np.inf) -> Floats:
-        """Distances (p, n) from each of p points to every vertex; +inf where unreachable or beyond `limit`."""
-        table, start, n = corners(self.metric), seeds(self.metric, points), self.mesh.n_vertices
-        bound, out = np.full(n, np.inf), np.empty((len(points), n))
+        """Distances (p, n) from each of p points to every vertex; +inf where unreachable or farther than `limit`."""
+        around = seeds(self.metric, points)
+        out = np.full((len(points), self.mesh.n_vertices), np.inf)
+        until = _until(self.metric, limit=limit)
 
-        def rows(chunk: range) -> None:
-            front = fresh_front(n)
+        def march(chunk: range) -> None:
+            front = fresh_front(self.metric)
             for i in chunk:
-                marching.run(table, front, *(part[i] for part in start), bound, limit)
-                out[i] = front.state[:, 0]
-                marching.clear(front)
+                marching.begin(front, around.vertices[i], around.spokes[i], 0.0)
+                marching.march(corners(self.metric), front, until)
+                marching.finish(front, out[i])
 
         workers = max(1, min(self.threads, os.cpu_count() or 1, len(points)))
         chunks = [range(k, len(points), workers) for k in range(workers)]
         if workers == 1:
-            rows(chunks[0])
+            march(chunks[0])
         else:
             with ThreadPoolExecutor(workers) as pool:
-                list(pool.map(rows, chunks))
+                list(pool.map(march, chunks))
         return out
+
+    def to_set(
+        self,
+        points: SurfacePoints,
+        *,
+        values: ArrayLike | None = None,
+        stop: ArrayLike | None = None,
+        limit: float = np.inf,
+    ) -> Floats:
+        """Distances (n,) to the nearest of the points: min over i of values[i] + d(points[i], x), values 0 by default.
+
+        The front stops at distance `limit`, and when it has passed all the vertices in `stop`; what it did not reach
+        is +inf. Raises `ValueError` unless there is one finite value a point.
+        """
+        start = np.zeros(len(points)) if values is None else np.array(values, dtype=np.float64)
+        if start.shape != (len(points),) or not np.isfinite(start).all():
+            raise ValueError(f"values must be {len(points)} finite numbers, one a point")
+        wanted = None if stop is None else np.asarray(stop, dtype=np.int64).reshape(-1)
+        front, around, out = fresh_front(self.metric), seeds(self.metric, points), np.full(self.mesh.n_vertices, np.inf)
+        for i in range(len(points)):
+            marching.begin(front, around.vertices[i], around.spokes[i], start[i])
+        marching.march(corners(self.metric), front, _until(self.metric, limit=limit, wanted=wanted))
+        marching.finish(front, out)
+        return out
+
+    def spreader(self) -> Callable[[int, Floats], tuple[Integers, Floats]]:
+        """A function (vertex, nearest (n,)) -> the vertices closer to this one than `nearest`, and their distances.
+
+        Its front stops a little way into what is nearer to others, so that the cells of all samples together cost no
+        more than a few fields.
+        """
+        front, at_vertex = fresh_front(self.metric), np.array([[0.0, np.nan]])
+        until = _until(self.metric)
+
+        def closer(vertex: int, nearest: Floats) -> tuple[Integers, Floats]:
+            marching.begin(front, np.array([vertex]), at_vertex, 0.0)
+            marching.march(corners(self.metric), front, until._replace(nearest=nearest))
+            return marching.finish_closer(front, nearest)  # type: ignore[no-any-return]
+
+        return closer
+
+
+def _until(metric: Metric, *, limit: float = np.inf, wanted: Integers | None = None) -> marching.Until:
+    """Where a front stops, as the kernel wants it."""
+    n = metric.mesh.n_vertices
+    marks = np.zeros(n, dtype=bool)
+    if wanted is not None:
+        marks[wanted] = True
+    margin = longest_edges(metric).max(where=marks, initial=0.0)
+    return marching.Until(np.full(n, np.inf), marks, int(marks.sum()), float(limit), float(margin))

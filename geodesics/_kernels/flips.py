@@ -1,4 +1,4 @@
-"""Compiled loops over half-edges 3 * face + k, the edge opposite corner k, running from corner k + 1 to corner k + 2."""
+"""Compiled loops over half-edges 3 * face + k: the edge opposite corner k, from corner k + 1 to corner k + 2."""
 
 from __future__ import annotations
 

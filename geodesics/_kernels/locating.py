@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,17 @@ Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 
+class Net(NamedTuple):
+    """Triangles (see `GluedTriangulation`), and their corners 3 * face + k grouped by vertex, from start[v] on."""
+
+    start: Integers
+    corner: Integers
+    lengths: Floats
+    twin: Integers
+    direction: Floats
+    whole: Floats
+
+
 @njit
 def _corner_angle(lengths: Floats, f: int, k: int) -> float:
     """The angle at corner k of face f."""
@@ -21,22 +33,20 @@ def _corner_angle(lengths: Floats, f: int, k: int) -> float:
 
 
 @njit
-def first_corner(
-    start: Integers, corner: Integers, lengths: Floats, toward: Floats, whole: float, v: int, way: float
-) -> int:
-    """The corner 3 * face + k at vertex v that direction `way` points into, -1 where there is none."""
-    for q in range(start[v], start[v + 1]):
-        h = corner[q]
-        inside = way - toward[h // 3, h % 3]
-        if whole < np.inf:
-            inside = inside % whole
-        if -1e-12 <= inside <= _corner_angle(lengths, h // 3, h % 3) + 1e-12:
-            return h
-    return -1
+def _first_corner(net: Net, v: int, way: float) -> tuple[int, float]:
+    """The corner 3 * face + k at vertex v that direction `way` points into, and the angle there; -1 where none is."""
+    for q in range(net.start[v], net.start[v + 1]):
+        h = net.corner[q]
+        inside = way - net.direction[h // 3, h % 3]
+        if net.whole[v] < np.inf:
+            inside = (inside + 1e-9) % net.whole[v] - 1e-9
+        if -1e-9 <= inside <= _corner_angle(net.lengths, h // 3, h % 3) + 1e-9:
+            return h, inside
+    return -1, 0.0
 
 
 @njit
-def walk(lengths: Floats, twin: Integers, h: int, angle: float, distance: float, weights: Floats) -> int:
+def _walk(lengths: Floats, twin: Integers, h: int, angle: float, distance: float, weights: Floats) -> int:
     """Go straight from corner h, at `angle` from its first edge; returns the face reached, -1 if a border was met.
 
     The triangle is kept as its corners in the plane of the first face; weights (3,) receives the barycentric place.
@@ -79,18 +89,11 @@ def walk(lengths: Floats, twin: Integers, h: int, angle: float, distance: float,
 
 
 @njit
-def locate(
-    start: Integers, corner: Integers, lengths: Floats, twin: Integers, toward: Floats, whole: Floats, rays: Floats
-) -> tuple[Integers, Floats]:
+def locate(net: Net, rays: Floats) -> tuple[Integers, Floats]:
     """Faces (p,), -1 where lost, and weights (p, 3) of the ends of rays (p, 3): vertex, direction, length."""
-    count = rays.shape[0]
-    face, weights = np.full(count, -1, dtype=np.int64), np.zeros((count, 3))
-    for p in range(count):
-        v = int(rays[p, 0])
-        h = first_corner(start, corner, lengths, toward, whole[v], v, rays[p, 1])
+    face, weights = np.full(rays.shape[0], -1, dtype=np.int64), np.zeros((rays.shape[0], 3))
+    for p in range(rays.shape[0]):
+        h, angle = _first_corner(net, int(rays[p, 0]), rays[p, 1])
         if h >= 0:
-            angle = rays[p, 1] - toward[h // 3, h % 3]
-            if whole[v] < np.inf:
-                angle = angle % whole[v]
-            face[p] = walk(lengths, twin, h, angle, rays[p, 2], weights[p])
+            face[p] = _walk(net.lengths, net.twin, h, angle, rays[p, 2], weights[p])
     return face, weights

@@ -1,4 +1,4 @@
-"""The marching front: arrays in, arrays out."""
+"""The marching front. Arrays leave their tuples before the loops: counting references cost 5/6 of the time."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from geodesics._kernels.jit import njit
+from geodesics._kernels.jit import inlined, njit
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-UNSEEN, ACCEPTED = -1, -2  # positions in the heap of vertices that are not in it
-FAN_GAP = 1000.0  # directions further apart lie in fans that meet only in the vertex
-HALF_GAP = 500.0
+UNSEEN, ACCEPTED = -1, -2  # in place of a position in the heap
+HALF_GAP = 500.0  # radians: directions further apart are of two fans of faces that meet only in the vertex
+VISITS = 20  # how often a vertex may be accepted anew
 
 
 class Corners(NamedTuple):
@@ -23,248 +23,230 @@ class Corners(NamedTuple):
 
     In a row, `ends` are the next and the previous vertex of the face, `shape` the lengths of the edges to them, cosine
     and sine of the angle between, the directions at v of next and previous, and the directions of v at each of them;
-    `slowness` is that of the face. `vertex` (n, 2) is the whole angle and the slowness at each vertex.
+    `slowness` is that of the face.
     """
 
     start: Integers
     ends: Integers
     shape: Floats
     slowness: Floats
-    vertex: Floats
 
 
 class Front(NamedTuple):
-    """Distance, direction of arrival and offset of the source per vertex (n, 3); position in the heap (n,); heap (n,);
-    touched (n,), the vertices ever reached in order; visits (n,), how often each was accepted; size (2,) of heap and touched."""
+    """A front that moves; row v of `state` (n, 6) is distance, direction back, and offset of the source at vertex v,
+    then three constants: whole angle, slowness, and how far beyond `nearest` the front may go.
+
+    `position` (n,) is the place in the heap, `visits` (n,) how often a vertex was accepted, `heap` and `keys` (n,) are
+    a binary heap, `touched` (n,) lists the vertices ever reached, and `sizes` (2,) counts the last two.
+    """
 
     state: Floats
     position: Integers
-    heap: Integers
-    touched: Integers
     visits: Integers
-    size: Integers
+    heap: Integers
+    keys: Floats
+    touched: Integers
+    sizes: Integers
 
 
-@njit
-def _rise(front: Front, i: int, v: int) -> None:
-    """Put v into the heap at i or nearer the top."""
-    key = front.state[v, 0]
+class Until(NamedTuple):
+    """Where a front stops: at vertices farther than nearest (n,) by more than their margin, at distance `limit`, or
+    `margin` after the last of the `missing` vertices marked in wanted (n,)."""
+
+    nearest: Floats
+    wanted: NDArray[np.bool_]
+    missing: int
+    limit: float
+    margin: float
+
+
+@inlined
+def _rise(heap: Integers, keys: Floats, position: Integers, i: int, v: int, key: float) -> None:
+    """Put v into the heap at place i or nearer the top."""
     while i > 0:
         parent = (i - 1) >> 1
-        u = front.heap[parent]
-        if front.state[u, 0] <= key:
+        if keys[parent] <= key:
             break
-        front.heap[i] = u
-        front.position[u] = i
+        heap[i], keys[i] = heap[parent], keys[parent]
+        position[heap[i]] = i
         i = parent
-    front.heap[i] = v
-    front.position[v] = i
+    heap[i], keys[i], position[v] = v, key, i
+
+
+@inlined
+def _sink(heap: Integers, keys: Floats, position: Integers, size: int) -> None:
+    """Put the last of size + 1 entries in the place of the first, and down from there."""
+    v, key, i = heap[size], keys[size], 0
+    while 2 * i + 1 < size:
+        child = 2 * i + 1
+        if child + 1 < size and keys[child + 1] < keys[child]:
+            child += 1
+        if keys[child] >= key:
+            break
+        heap[i], keys[i] = heap[child], keys[child]
+        position[heap[i]] = i
+        i = child
+    heap[i], keys[i], position[v] = v, key, i
 
 
 @njit
-def _pop(front: Front) -> int:
-    """Take the nearest vertex from the heap."""
-    top = front.heap[0]
-    front.position[top] = ACCEPTED
-    front.visits[top] += 1
-    front.size[0] -= 1
-    size = front.size[0]
-    if size > 0:
-        v = front.heap[size]
-        key = front.state[v, 0]
-        i = 0
-        while 2 * i + 1 < size:
-            child = 2 * i + 1
-            if child + 1 < size and front.state[front.heap[child + 1], 0] < front.state[front.heap[child], 0]:
-                child += 1
-            u = front.heap[child]
-            if front.state[u, 0] >= key:
-                break
-            front.heap[i] = u
-            front.position[u] = i
-            i = child
-        front.heap[i] = v
-        front.position[v] = i
-    return top
-
-
-@njit
-def _lower(front: Front, v: int, distance: float, direction: float, offset: float) -> None:
-    """Give v a shorter distance, and a place in the heap."""
-    front.state[v, 0], front.state[v, 1], front.state[v, 2] = distance, direction, offset
-    place = front.position[v]
-    if place == UNSEEN:
-        front.touched[front.size[1]] = v
-        front.size[1] += 1
-    if place < 0:
-        place = front.size[0]
-        front.size[0] += 1
-    _rise(front, place, v)
-
-
-@njit
-def _slope(arrival: float, along: float, whole: float) -> float:
-    """Derivative of the distance along an edge, -cos of the angle to the way back; 2 where that is not known."""
+def _slope(arrival: float, along: float, whole: float, ratio: float) -> float:
+    """Derivative of the distance along an edge, -cos of the angle to the way back (1 in the shadow of a saddle)
+    times the ratio of the slownesses of vertex and face; inf where it is not known."""
     turn = abs(arrival - along)
     if turn > 0.5 * whole:
         turn = abs(whole - turn)
     if not turn < HALF_GAP:
-        return 2.0
-    return -math.cos(turn) if turn < math.pi else 1.0
+        return math.inf
+    return -ratio * math.cos(min(turn, math.pi))
 
 
 @njit
 def _cross(d0: float, d1: float, length: float, x: float, y: float, p0: float, p1: float) -> tuple[float, float]:
     """Distance at (x, y), y > 0, behind the edge from (0, 0) to (length, 0), and where on the edge its path crosses.
 
-    d0, d1 are the distances at the ends and p0, p1 their derivatives along the edge (2: not known). The source is
-    unfolded into the plane, at distances d0 and d1 from the ends; the cubic that corrects its slopes at the ends is
-    added to the distance along the edge, and the crossing found by one Newton step from the straight line.
+    d0, d1 are the distances at the ends, p0, p1 their derivatives along the edge. The source is unfolded into the
+    plane at those distances (Novotni, Klein 2002). The cubic that corrects its slopes at the ends is added to the
+    distance along the edge, and the crossing moved by one Newton step: fourth order where the wave is smooth.
     """
     xs = 0.5 * (length + (d0 - d1) * (d0 + d1) / length)
     ys = math.sqrt(max((d0 - xs) * (d0 + xs), 0.0))
     at = xs + (x - xs) * (ys / (ys + y))
     if not at > 0.0:
-        return d0 + math.hypot(x, y), 0.0
+        return d0 + math.sqrt(x * x + y * y), 0.0
     if at >= length:
-        return d1 + math.hypot(x - length, y), length
-    value = math.sqrt((x - xs) * (x - xs) + (y + ys) * (y + ys))
-    m0 = p0 + xs / d0 if p0 < 2.0 and d0 > 0.0 else 0.0
-    m1 = p1 - (length - xs) / d1 if p1 < 2.0 and d1 > 0.0 else 0.0
-    if abs(m0) + abs(m1) > 0.5:
-        return value, at
+        return d1 + math.sqrt((x - length) * (x - length) + y * y), length
+    reach = math.sqrt((x - xs) * (x - xs) + (y + ys) * (y + ys))
+    m0 = p0 + xs / d0 if d0 > 0.0 else 0.0
+    m1 = p1 - (length - xs) / d1 if d1 > 0.0 else 0.0
+    if not abs(m0) + abs(m1) < 0.5:  # two waves meet here, or a slope is not known
+        return reach, at
     t = at / length
     u = 1.0 - t
-    rise = m0 * u * (u - 2.0 * t) + m1 * t * (t - 2.0 * u)  # derivative of the cubic
-    value += length * t * u * (m0 * u - m1 * t)
-    depth = ys + y
-    flat = (
-        value * value * value * ys * y / (depth * depth * depth * depth)
-    )  # 1 / second derivative of the straight path
-    step = rise * flat
-    return value - 0.5 * rise * step, min(max(at - step, 0.0), length)
+    tilt = m0 * u * (u - 2.0 * t) + m1 * t * (t - 2.0 * u)
+    depth = (ys + y) * (ys + y)
+    step = tilt * reach * reach * reach * ys * y / (depth * depth)
+    return reach + length * t * u * (m0 * u - m1 * t) - 0.5 * tilt * step, min(max(at - step, 0.0), length)
 
 
-@njit
-def _try_edge(front: Front, v: int, u: int, length: float, direction: float) -> None:
-    """Reach u from v along their edge."""
-    reached = front.state[v, 0] + length
-    if reached < front.state[u, 0] and _may_lower(front, u, reached, length):
-        _lower(front, u, reached, direction, front.state[v, 2])
-
-
-@njit
-def _may_lower(front: Front, u: int, reached: float, length: float) -> bool:
-    """An accepted vertex is taken back only for a real gain, and not for ever."""
-    if front.position[u] != ACCEPTED:
-        return True
-    return front.visits[u] < 20 and reached < front.state[u, 0] - 1e-7 * length
-
-
-@njit
-def _expand(corners: Corners, front: Front, v: int, q: int) -> None:
-    """Carry the distance of v, just accepted, over the face of its corner q."""
-    a, b = corners.ends[q, 0], corners.ends[q, 1]
-    slowness = corners.slowness[q]
-    la, lb = slowness * corners.shape[q, 0], slowness * corners.shape[q, 1]
-    va, vb, av, bv = corners.shape[q, 4], corners.shape[q, 5], corners.shape[q, 6], corners.shape[q, 7]
-    _try_edge(front, v, a, la, av)
-    _try_edge(front, v, b, lb, bv)
-    cosine, sine = corners.shape[q, 2], corners.shape[q, 3]
-    if sine <= 0.0:
-        return
-    if front.position[a] == ACCEPTED and (front.position[b] != ACCEPTED or lb < la * cosine):
-        _try_face(corners, front, v, a, b, slowness, la, lb * cosine, lb * sine, va, av, bv, 1.0)
-    if front.position[b] == ACCEPTED and (front.position[a] != ACCEPTED or la < lb * cosine):
-        _try_face(corners, front, v, b, a, slowness, lb, la * cosine, la * sine, vb, bv, av, -1.0)
-
-
-@njit
-def _try_face(
-    corners: Corners,
-    front: Front,
-    v: int,
-    a: int,
-    c: int,
-    slowness: float,
-    length: float,
-    x: float,
-    y: float,
-    va: float,
-    av: float,
-    cv: float,
-    turn: float,
-) -> None:
-    """Reach c through the edge from v to a; `turn` is +1 where the face runs v, a, c."""
-    state, vertex = front.state, corners.vertex
+@inlined
+def _through(
+    state: Floats, shape: Floats, slow: float, q: int, side: int, v: int, a: int
+) -> tuple[float, float, float]:
+    """Distance, direction back and offset of the source at the far vertex of corner q's face, over the edge v to a."""
+    along, across = slow * shape[q, side], slow * shape[q, 1 - side]
+    x, y = across * shape[q, 2], across * shape[q, 3]
     offset = min(state[v, 2], state[a, 2])
-    d0, d1 = state[v, 0] - offset, state[a, 0] - offset
-    p0 = _slope(state[v, 1], va, vertex[v, 0])
-    p1 = -_slope(state[a, 1], av, vertex[a, 0])
-    if abs(p0) < 2.0:
-        p0 *= vertex[v, 1] / slowness
-    p1 = p1 * vertex[a, 1] / slowness if abs(p1) < 2.0 else 2.0
-    reached, at = _cross(d0, d1, length, x, y, p0, p1)
-    reached += offset
-    if not reached < state[c, 0]:
-        return
-    if not _may_lower(front, c, reached, length):
-        return
-    dot, cross = x * (x - at) + y * y, y * at
-    direction = cv + turn * math.atan2(cross, dot)
-    _lower(front, c, reached, _wrap(direction, vertex[c, 0]), offset)
+    p0 = _slope(state[v, 1], shape[q, 4 + side], state[v, 3], state[v, 4] / slow)
+    p1 = -_slope(state[a, 1], shape[q, 6 + side], state[a, 3], state[a, 4] / slow)
+    reach, at = _cross(state[v, 0] - offset, state[a, 0] - offset, along, x, y, p0, p1)
+    angle = math.atan2(y * at, x * (x - at) + y * y)
+    return reach + offset, shape[q, 7 - side] + (1 - 2 * side) * angle, offset
 
 
 @njit
-def _wrap(direction: float, whole: float) -> float:
+def _modulo(direction: float, whole: float) -> float:
     """A direction taken into [0, whole)."""
-    if direction < 0.0:
-        return direction + whole if whole < HALF_GAP else direction
+    if direction < 0.0 and whole < HALF_GAP:
+        return direction + whole
     return direction - whole if direction >= whole else direction
 
 
 @njit
-def march(corners: Corners, front: Front, bound: Floats, limit: float) -> None:
-    """Accept the vertices of the heap in order of distance, none beyond `limit`, crossing none beyond its `bound` (n,)."""
-    while front.size[0] > 0:
-        v = _pop(front)
-        if front.state[v, 0] > limit:
-            break
-        if front.state[v, 0] > bound[v]:
+def march(corners: Corners, front: Front, until: Until) -> None:
+    """Accept the vertices of the heap in order of distance, each carrying the front over the faces around it.
+
+    A vertex accepted too soon, which happens behind obtuse angles, is lowered and accepted anew.
+    """
+    start, ends, shape, slowness = corners.start, corners.ends, corners.shape, corners.slowness
+    state, position, visits, heap, keys = front.state, front.position, front.visits, front.heap, front.keys
+    touched, sizes, nearest, wanted = front.touched, front.sizes, until.nearest, until.wanted
+    size, reached, missing, limit = sizes[0], sizes[1], until.missing, until.limit
+    while size > 0 and keys[0] <= limit:
+        v = heap[0]
+        size -= 1
+        _sink(heap, keys, position, size)
+        position[v] = ACCEPTED
+        visits[v] += 1
+        dv = state[v, 0]
+        if wanted[v] and visits[v] == 1:
+            missing -= 1
+            limit = min(limit, dv + until.margin) if missing == 0 else limit
+        if dv > nearest[v] + state[v, 5]:
             continue
-        for q in range(corners.start[v], corners.start[v + 1]):
-            _expand(corners, front, v, q)
+        for q in range(start[v], start[v + 1]):
+            for side in range(2):
+                a, c = ends[q, side], ends[q, 1 - side]
+                place = position[c]
+                acute = shape[q, 1 - side] >= shape[q, side] * shape[q, 2]
+                if place == ACCEPTED and acute and state[c, 0] <= dv:
+                    continue
+                edge = slowness[q] * shape[q, 1 - side]
+                new, direction, offset = dv + edge, shape[q, 7 - side], state[v, 2]
+                if position[a] == ACCEPTED:
+                    other, turned, source = _through(state, shape, slowness[q], q, side, v, a)
+                    if other < new:
+                        new, direction, offset = other, _modulo(turned, state[c, 3]), source
+                gain = state[c, 0] - new
+                if not gain > 0.0 or (place == ACCEPTED and (visits[c] >= VISITS or gain < 1e-7 * edge)):
+                    continue
+                state[c, 0], state[c, 1], state[c, 2] = new, direction, offset
+                if place == UNSEEN:
+                    touched[reached] = c
+                    reached += 1
+                if place < 0:
+                    place = size
+                    size += 1
+                _rise(heap, keys, position, place, c, new)
+    sizes[0], sizes[1] = size, reached
 
 
 @njit
-def start_at(corners: Corners, front: Front, v: int, distance: float, direction: float, offset: float) -> None:
-    """Put a first vertex on the front."""
-    if distance < front.state[v, 0]:
-        _lower(front, v, distance, direction, offset)
-
-
-@njit
-def clear(front: Front) -> None:
-    """Take back everything the last march did."""
-    for i in range(front.size[1]):
-        v = front.touched[i]
-        front.state[v, 0] = np.inf
-        front.position[v] = UNSEEN
-        front.visits[v] = 0
-    front.size[:] = 0
-
-
-@njit
-def run(
-    corners: Corners,
-    front: Front,
-    vertices: Integers,
-    distances: Floats,
-    directions: Floats,
-    bound: Floats,
-    limit: float,
-) -> None:
-    """March from the vertices (k,) around a point."""
+def begin(front: Front, vertices: Integers, spokes: Floats, offset: float) -> None:
+    """Put the vertices (k,) around a source on the front; spokes (k, 2) are distance and direction back to it."""
+    state, position, heap, keys = front.state, front.position, front.heap, front.keys
+    touched, sizes = front.touched, front.sizes
     for i in range(vertices.shape[0]):
-        start_at(corners, front, vertices[i], distances[i], directions[i], 0.0)
-    march(corners, front, bound, limit)
+        v, distance = vertices[i], offset + spokes[i, 0]
+        if distance < state[v, 0]:
+            state[v, 0], state[v, 1], state[v, 2] = distance, spokes[i, 1], offset
+            place = position[v]
+            if place < 0:
+                place = sizes[0]
+                sizes[0] += 1
+                touched[sizes[1]] = v
+                sizes[1] += 1
+            _rise(heap, keys, position, place, v, distance)
+
+
+@njit
+def _wipe(front: Front) -> None:
+    """Forget what was reached."""
+    for i in range(front.sizes[1]):
+        v = front.touched[i]
+        front.state[v, 0], front.position[v], front.visits[v] = math.inf, UNSEEN, 0
+    front.sizes[:] = 0
+
+
+@njit
+def finish(front: Front, out: Floats) -> None:
+    """Copy the distances of accepted vertices to out (n,), and wipe the front."""
+    for i in range(front.sizes[1]):
+        v = front.touched[i]
+        if front.position[v] == ACCEPTED:
+            out[v] = front.state[v, 0]
+    _wipe(front)
+
+
+@njit
+def finish_closer(front: Front, nearest: Floats) -> tuple[Integers, Floats]:
+    """The accepted vertices that are closer than nearest (n,), and their distances; and wipe the front."""
+    closer, distances = np.empty(front.sizes[1], dtype=np.int64), np.empty(front.sizes[1])
+    count = 0
+    for i in range(front.sizes[1]):
+        v = front.touched[i]
+        if front.position[v] == ACCEPTED and front.state[v, 0] < nearest[v]:
+            closer[count], distances[count] = v, front.state[v, 0]
+            count += 1
+    _wipe(front)
+    return closer[:count].copy(), distances[:count].copy()
