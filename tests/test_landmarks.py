@@ -1,0 +1,129 @@
+"""Landmarks, sample counts and option names at the door of the matcher (rows V17-V20 of the reliability table)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from shapes import bumpy_sphere, icosphere, with_isolated
+
+from geodesics import Mesh, SurfacePoints
+from gmds._validation import (
+    LandmarkError,
+    SampleCountError,
+    UnknownKey,
+    check_keys,
+    check_landmarks,
+    check_sample_count,
+    place_landmarks,
+    suggest_keywords,
+)
+
+A, B = bumpy_sphere(2), icosphere(2)
+PAIRS = np.array([[3, 5], [10, 1], [20, 30]])
+LONELY = with_isolated(icosphere(1))  # its first vertex is on no face
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        PAIRS,
+        PAIRS.tolist(),
+        PAIRS.astype(float),
+        (PAIRS[:, 0], PAIRS[:, 1]),
+        (PAIRS[:, 0].tolist(), PAIRS[:, 1].tolist()),
+        [PAIRS[:, 0], PAIRS[:, 1]],
+        (A.vertices[PAIRS[:, 0]], B.vertices[PAIRS[:, 1]]),
+        (A.vertices[PAIRS[:, 0]], PAIRS[:, 1]),
+        (SurfacePoints.at_vertices(A, PAIRS[:, 0]), PAIRS[:, 1]),
+    ],
+)
+def test_every_form_gives_the_same_points(given: Any) -> None:
+    on_a, on_b = check_landmarks(given, A, B)
+    assert on_a.mesh is A and on_b.mesh is B
+    assert np.allclose(on_a.positions, A.vertices[PAIRS[:, 0]], atol=1e-12)
+    assert np.allclose(on_b.positions, B.vertices[PAIRS[:, 1]], atol=1e-12)
+
+
+def test_two_by_two_lists_are_pairs_and_two_arrays_are_sides() -> None:
+    as_pairs = check_landmarks([[3, 5], [10, 1]], A, B)
+    assert as_pairs[0].nearest_vertices().tolist() == [3, 10]
+    as_sides = check_landmarks((np.array([3, 10]), np.array([5, 1])), A, B)
+    assert as_sides[0].nearest_vertices().tolist() == [3, 10]
+
+
+REFUSED: list[tuple[str, Any, str]] = [
+    ("E301", [[3, 5], [A.n_vertices, 1]], "landmark 1"),
+    ("E301", [[3, 5], [10, -1]], "landmark 1"),
+    ("E301", [[3, 5], [10, 2**62]], "target"),
+    ("E302", [[3, 5], [10, 1], [3, 7]], "landmarks 0 and 2"),
+    ("E302", [[3, 5], [10, 5]], "of the target"),
+    ("E302", (A.vertices[[1, 2, 1]], [1, 2, 3]), "of the source"),
+    ("E303", (np.arange(4), np.arange(3)), "4 landmarks on the source but 3"),
+    ("E305", (A.vertices[[1, 2]] + [[0, 0, 0], [0, 0, 9]], [1, 2]), "landmark 1"),
+    ("E300", "nose", "indices or positions"),
+    ("E300", [], "(k, 2)"),
+    ("E300", [[1, 2, 3], [4, 5, 6], [7, 8, 9]], "(k, 2)"),
+    ("E300", [[0.5, 1]], "whole numbers"),
+    ("E300", [[np.nan, 1]], "whole numbers"),
+    ("E300", (A.vertices[[1, 2]] * np.nan, [1, 2]), "E101"),
+    ("E303", [[1, 2], [3]], "2 landmarks on the source but 1"),
+    ("E300", [[1, 2], [3], [4, 5]], "rectangular"),
+    ("E300", (SurfacePoints.at_vertices(B, [1, 2]), [1, 2]), "another mesh"),
+    ("E300", {"nose": 3}, "indices or positions"),
+]
+
+
+@pytest.mark.parametrize(("code", "given", "says"), REFUSED)
+def test_v17_v18_refused(code: str, given: Any, says: str) -> None:
+    with pytest.raises(LandmarkError) as caught:
+        check_landmarks(given, A, B)
+    assert caught.value.code == code
+    assert str(caught.value).startswith(code) and says in str(caught.value)
+
+
+def test_v17_a_vertex_on_no_face() -> None:
+    with pytest.raises(LandmarkError, match=r"E304: landmark 1: vertex 0 of the source"):
+        check_landmarks([[1, 1], [0, 2]], LONELY, B)
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+def test_v18_positions_near_the_surface_are_moved_to_it_and_the_move_is_told(scale: float) -> None:
+    a = Mesh(scale * B.vertices, B.faces)
+    index = np.array([4, 40, 90])
+    lifted = a.vertices[index] * [[1.02], [1.0], [1.0]]
+    points, _, notes = place_landmarks((lifted, index), a, B)
+    assert np.linalg.norm(points.positions - a.vertices[index], axis=1).max() < 0.03 * scale
+    assert [note.code for note in notes] == ["W301"] and notes[0].indices == (0,)
+    assert place_landmarks((a.vertices[index], index), a, B)[2] == []
+
+
+@pytest.mark.parametrize("wrong", [0, -1, 2, B.n_vertices + 1, 10**30, 5.0, "5", True, None, np.nan, np.float64(5)])
+def test_v19_sample_counts_are_refused_never_clamped(wrong: Any) -> None:
+    with pytest.raises(SampleCountError, match=rf"E401.*3 to {B.n_vertices}"):
+        check_sample_count(wrong, B)
+
+
+def test_v19_the_range_counts_vertices_on_faces() -> None:
+    assert check_sample_count(np.int32(3), B) == 3
+    assert check_sample_count(LONELY.n_vertices - 3, LONELY) == LONELY.n_vertices - 3
+    with pytest.raises(SampleCountError):
+        check_sample_count(LONELY.n_vertices - 2, LONELY)
+
+
+def test_v20_did_you_mean() -> None:
+    @suggest_keywords
+    def match(source: int, target: int, *, n_samples: int = 1, landmarks: int = 0) -> int:
+        """A stand-in."""
+        return source + target + n_samples
+
+    assert match(1, target=2, n_samples=3) == 6
+    assert match.__doc__ == "A stand-in."
+    with pytest.raises(TypeError, match=r"match\(\) has no argument 'n_sample'; did you mean 'n_samples'"):
+        match(1, 2, n_sample=3)  # type: ignore[call-arg]
+    with pytest.raises(TypeError, match="there are source, target, n_samples, landmarks"):
+        match(1, 2, zzz=3)  # type: ignore[call-arg]
+    check_keys(["loss"], ["loss", "metric"], "the configuration")
+    with pytest.raises(UnknownKey, match="E601: the configuration has no key 'metrc'; did you mean 'metric'"):
+        check_keys(["loss", "metrc"], ["loss", "metric"], "the configuration")
