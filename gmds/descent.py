@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,8 @@ from gmds.status import Status
 Array = NDArray[np.float64]
 SHORTEST, LONGEST = 1e-6, 0.5
 """Bounds of the trust region, in mean distances."""
+WALLED = 0.02
+"""First trust region of a walled descent, in mean distances."""
 SIDES = 6
 """How many times in a row points on edges are turned over before nothing is left to gain."""
 
@@ -51,15 +53,15 @@ def descend(
     quiet: list[float] = []
     for iteration in range(state.iteration + 1, max_iterations + 1):
         jacobian = here.walled_jacobian if walled else here.jacobian
-        step = loss.step(jacobian, here.residuals, radius)
-        foretold = stress - loss.value(here.residuals + jacobian.apply(step))
         if stress <= negligible:
             return Descent(here, stress, radius, iteration, 0.0, Status.CONVERGED)
-        if not foretold > tolerance * stress:
+        step = loss.step(jacobian, here.residuals, radius)
+        foretold = stress - loss.value(here.residuals + jacobian.apply(step))
+        if not np.isfinite(foretold):
+            return Descent(here, stress, radius, iteration, np.inf, Status.STALLED)
+        if foretold <= tolerance * stress:
             quiet.append(max(foretold, 0.0))
             other, turned = turned_over(here.points)
-            if not np.isfinite(foretold):
-                return Descent(here, stress, radius, iteration, np.inf, Status.STALLED)
             if not walled or not turned.any() or len(quiet) >= SIDES:
                 return Descent(here, stress, radius, iteration, max(quiet), Status.CONVERGED)
             here = here.problem.at(other)
@@ -71,10 +73,6 @@ def descend(
             here, stress = there, loss.value(there.residuals)
         elif radius <= SHORTEST:
             return Descent(here, stress, radius, iteration, foretold, Status.STALLED)
-        other, turned = turned_over(here.points)
-        if walled and turned.any():
-            here = here.problem.at(other)
-            stress = loss.value(here.residuals)
         report(iteration)
     return Descent(here, stress, radius, max_iterations, np.inf, Status.ITERATION_LIMIT)
 
@@ -86,7 +84,8 @@ def _tried(
 
     A poor step is tried again without the points whose own residuals grew; then the share is at most 1/2.
     """
-    there = here.problem.at(walk(here.points, displacement, walled=walled))
+    end = walk(here.points, displacement, walled=walled)
+    there = here.problem.at(turned_over(end)[0] if walled else end)
     agreement = (stress - loss.value(there.residuals)) / foretold
     if agreement > 0.25:
         return there, agreement
@@ -106,11 +105,31 @@ def _share(placement: Placement) -> Array:
     """The sum of the squared residuals of each point, (p,)."""
     problem, square = placement.problem, placement.residuals**2
     count = len(problem)
-    share: Array = np.bincount(problem.first, square, count) + np.bincount(problem.second, square, count)
-    return share
+    share = np.bincount(problem.first, square, count) + np.bincount(problem.second, square, count)
+    return np.asarray(share, dtype=np.float64)
 
 
 def _resized(radius: float, agreement: float) -> float:
     """Twice the radius where the linearisation foretold the gain well, a half or a quarter where it did not."""
     factor = 2.0 if agreement > 0.75 else 1.0 if agreement > 0.25 else 0.5 if agreement > 0 else 0.25
     return float(np.clip(factor * radius, SHORTEST, LONGEST))
+
+
+@dataclass(frozen=True)
+class Settler:
+    """A free descent, then a walled one, with one loss and tolerance; `report` hears of each iteration."""
+
+    loss: Loss
+    tolerance: float
+    report: Callable[[int], None]
+
+    def __call__(self, here: Placement, max_iterations: int, radius: float | None = None) -> Descent:
+        """From `here`, with a first trust region of `radius`, or of twice the root-mean-square residual."""
+        if radius is None:
+            radius = float(np.clip(2 * np.sqrt(np.mean(here.residuals**2)), SHORTEST, LONGEST))
+        start = Descent(here, self.loss.value(here.residuals), radius)
+        free = descend(start, self.loss, False, self.tolerance, max_iterations, self.report)
+        if free.status is Status.ITERATION_LIMIT or free.foretold == 0:
+            return free
+        again = replace(free, radius=min(radius, WALLED))
+        return descend(again, self.loss, True, self.tolerance, max_iterations, self.report)

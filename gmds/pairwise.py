@@ -94,8 +94,20 @@ class FieldPairs:
         return np.einsum("qpk,pkx->pxq", corners, barycentric_gradient(self.points))
 
 
-def pairwise(distance: Distance, points: SurfacePoints) -> EmbeddedPairs | FieldPairs:
-    """Distances between the points: in the embedding when the distance has one, else by one field a point."""
+class Pairs(Protocol):
+    """All distances between p points of a surface."""
+
+    def distances(self) -> Array:
+        """Symmetric (p, p), +inf where a point can not reach another."""
+
+    def derivatives(self, distances: Array) -> Array:
+        """(p, 2, p): entry [i, :, j] is the derivative of d(x_i, x_j) by the in-face displacement of x_i."""
+
+
+def pairwise(distance: Distance, points: SurfacePoints) -> Pairs:
+    """Distances between the points: as the distance itself says, in its embedding if it has one, else by fields."""
+    if hasattr(distance, "pairs"):
+        return cast(Pairs, distance.pairs(points))
     if hasattr(distance, "embedding"):
         embedding = cast(EmbeddedDistance, distance).embedding
         signature = getattr(distance, "signature", np.ones(embedding.shape[1]))

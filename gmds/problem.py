@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import functools
 from dataclasses import dataclass, replace
 
@@ -11,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from geodesics import SurfacePoints
 from geodesics.tracing import barycentric_gradient
 from gmds.jacobian import Jacobian, scaled
-from gmds.pairwise import Distance, EmbeddedPairs, FieldPairs, pairwise
+from gmds.pairwise import Distance, Pairs, pairwise
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -69,6 +70,12 @@ class Problem:
         """Number of samples p."""
         return len(self.source_points)
 
+    def towards(self, target_distance: Distance) -> Problem:
+        """The same samples and source distances, placed by another distance of the target."""
+        other = copy.copy(self)
+        object.__setattr__(other, "target_distance", target_distance)
+        return other
+
     def at(self, points: SurfacePoints) -> Placement:
         """The problem seen from target points (p,), with residuals and their derivative."""
         if len(points) != len(self):
@@ -90,7 +97,7 @@ class Placement:
 
     problem: Problem
     points: SurfacePoints
-    pairs: EmbeddedPairs | FieldPairs
+    pairs: Pairs
 
     @functools.cached_property
     def distances(self) -> Array:

@@ -19,6 +19,7 @@ from gmds.status import Status
 
 Array = NDArray[np.float64]
 
+
 @dataclass(frozen=True, eq=False)
 class Solution:
     """Where the samples ended: target points (p,), stress = loss of the residuals (r,), and how it came about.
