@@ -10,7 +10,7 @@ from gmds.cli.group import UNFINISHED, Command
 from gmds.cli.output import json_option, note, progress_bar, seed_option
 
 
-@click.command(cls=Command)
+@click.command(cls=Command, short_help="Judge matching on a benchmark folder.")
 @click.argument("dataset_dir", type=click.Path(path_type=Path))
 @click.option("--pairs", type=click.Path(path_type=Path), help="The pairs to run, instead of the published ones.")
 @click.option("--every", default=1, show_default=True, type=click.IntRange(min=1), help="Run every N-th pair only.")

@@ -10,7 +10,7 @@ from gmds.cli.group import Command
 from gmds.cli.output import emit, json_option
 
 
-@click.command(cls=Command)
+@click.command(cls=Command, short_help="Say what is wrong with a mesh.")
 @click.argument("mesh", type=click.Path(path_type=Path))
 @json_option
 def command(mesh: Path, as_json: bool) -> None:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from gmds import Correspondence
 
 
-@click.command(cls=Command)
+@click.command(cls=Command, short_help="Match two built-in shapes and judge the map.")
 @click.option("-o", "--output", default="gmds-demo", show_default=True, type=click.Path(path_type=Path), help="Folder.")
 @seed_option
 @json_option

@@ -13,7 +13,7 @@ from gmds.cli.output import emit, json_option
 FILE = click.Path(path_type=Path)
 
 
-@click.command(cls=Command)
+@click.command(cls=Command, short_help="Judge a map against the truth.")
 @click.argument("map_file", metavar="MAP", type=FILE)
 @click.option("--source", required=True, type=FILE, help="Mesh the map starts on.")
 @click.option("--target", required=True, type=FILE, help="Mesh the map ends on.")

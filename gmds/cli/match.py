@@ -14,7 +14,7 @@ from gmds.cli.output import emit, json_option, note, progress_bar, seed_option
 FILE = click.Path(path_type=Path)
 
 
-@click.command(cls=Command)
+@click.command(cls=Command, short_help="Match two meshes and write the map.")
 @click.argument("source", type=FILE)
 @click.argument("target", type=FILE)
 @click.option("-o", "--output", default="map.npz", show_default=True, type=FILE, help="Where the map goes.")

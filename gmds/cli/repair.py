@@ -13,7 +13,7 @@ from gmds.cli.output import emit, json_option
 FILE = click.Path(path_type=Path)
 
 
-@click.command(cls=Command)
+@click.command(cls=Command, short_help="Write a better version of a mesh.")
 @click.argument("mesh", type=FILE)
 @click.option("-o", "--output", required=True, type=FILE, help="Where the new mesh goes; the ending says the format.")
 @click.option("--maps", type=FILE, help="Write a .npz with the old index of every new vertex and face.")
