@@ -75,9 +75,9 @@ def test_every_status_is_a_sentence_and_ranked() -> None:
 
 def test_vertex_map_is_the_heaviest_corner() -> None:
     target = icosphere(2)
-    points = SurfacePoints(target, [3, 8], [[0.2, 0.7, 0.1], [0.1, 0.3, 0.6]])
-    answer = Correspondence.from_points(Mesh([[0, 0, 0], [1, 0, 0]], [[0, 1, 1]]), points)
-    assert answer.vertex_map().tolist() == [target.faces[3, 1], target.faces[8, 2]]
+    points = SurfacePoints(target, [3, 8, 8], [[0.2, 0.7, 0.1], [0.1, 0.3, 0.6], [1, 0, 0]])
+    answer = Correspondence.from_points(Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]), points)
+    assert answer.vertex_map().tolist() == [target.faces[3, 1], target.faces[8, 2], target.faces[8, 0]]
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64, np.complex128])
