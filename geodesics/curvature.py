@@ -7,10 +7,12 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from geodesics import intrinsic
+from geodesics._memo import memoized
 from geodesics._sparse import factorised
 from geodesics.delaunay import IntrinsicTriangulation, intrinsic_delaunay
 from geodesics.laplacian import cotangent_matrix, vertex_areas, vertex_sums
 from geodesics.mesh import Mesh
+from geodesics.orientation import orient_faces
 from geodesics.topology import boundary_vertices
 
 Array = NDArray[np.float64]
@@ -63,9 +65,10 @@ def gaussian_curvature(mesh: Mesh, smoothing: float = SMOOTHING) -> Array:
 
 
 def mean_curvature(mesh: Mesh, smoothing: float = SMOOTHING) -> Array:
-    """Mean curvature H (n,) in units of 1 / length, positive where the surface bends away from its normals (a sphere).
+    """Mean curvature H (n,) in units of 1 / length, positive where a closed surface is convex.
 
-    2 H n is the Laplacian of position (W x = 2 A H n), smoothed as `gaussian_curvature`; needs oriented faces.
+    2 H n is the Laplacian of position (W x = 2 A H n), n the normals of `vertex_normals`; smoothed as
+    `gaussian_curvature`.
     """
     triangulation, n = intrinsic_delaunay(mesh), mesh.n_vertices
     laplacian = cotangent_matrix(triangulation, n) @ (mesh.vertices - mesh.vertices.mean(axis=0))
@@ -82,9 +85,13 @@ def principal_curvatures(mesh: Mesh, smoothing: float = SMOOTHING) -> tuple[Arra
     return h + root, h - root
 
 
+@memoized
 def vertex_normals(mesh: Mesh) -> Array:
-    """Unit normals (n, 3), the normals of the faces around each vertex weighted by angle; 0 where there are none."""
-    a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
+    """Unit normals (n, 3), the normals of the faces around each vertex weighted by angle; 0 where there are none.
+
+    Faces are oriented consistently first, outward where the surface is closed (`orient_faces`).
+    """
+    a, b, c = (mesh.vertices[corner] for corner in orient_faces(mesh).faces.T)
     normal = np.cross(b - a, c - a)
     normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), np.finfo(float).tiny)
     theta = intrinsic.angles(intrinsic.squared_lengths(mesh.vertices, mesh.faces))
@@ -96,9 +103,9 @@ def vertex_normals(mesh: Mesh) -> Array:
 def curvature_time(
     triangulation: IntrinsicTriangulation, defect: Array, interior: NDArray[np.bool_], smoothing: float
 ) -> Array:
-    """`smoothing` times the area 4 pi / |K| of the sphere of the same curvature, per face (m,), from a coarse look at K.
+    """`smoothing` times the area 4 pi / |K| of the sphere of the same curvature, per face (m,).
 
-    At most `smoothing` times the area of the surface, where it is flat.
+    That curvature is a coarse look at K. At most `smoothing` times the area of the surface, where it is flat.
     """
     area = intrinsic.areas(triangulation.l_sq).sum()
     coarse = smoothed_density(triangulation, defect, interior, np.full(len(triangulation.faces), COARSE * area))

@@ -18,7 +18,7 @@ def cotangent_matrix(triangulation: IntrinsicTriangulation, n: int, conductivity
     """The positive semi-definite matrix W (n, n) with off-diagonal entries -(cot alpha + cot beta) / 2.
 
     This is a_kl of (4.4) for the metric that the squared edge lengths describe. Any faces will do: an edge may have
-    one face (free boundary: Neumann), two, or more. With a conductivity c (m,) per face it is the matrix of -div(c grad).
+    one face (free boundary: Neumann), two, or more. With a conductivity c (m,) per face: the matrix of -div(c grad).
     """
     faces, l_sq = triangulation
     half_cot = 0.5 * intrinsic.cotangents(l_sq)
