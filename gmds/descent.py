@@ -8,10 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from geodesics import SurfacePoints
 from geodesics.tracing import turned_over, walk
 from gmds.losses import Loss
-from gmds.problem import Placement
+from gmds.problem import Placement, mixed
 from gmds.status import Status
 
 Array = NDArray[np.float64]
@@ -95,18 +94,7 @@ def _tried(
 
 def _without_setbacks(here: Placement, there: Placement) -> Placement:
     """`there`, with the points back in place whose own squared residuals grew."""
-    kept = _share(there) < _share(here)
-    face = np.where(kept, there.points.face, here.points.face)
-    barycentric = np.where(kept[:, None], there.points.barycentric, here.points.barycentric)
-    return here.problem.at(SurfacePoints(here.points.mesh, face, barycentric))
-
-
-def _share(placement: Placement) -> Array:
-    """The sum of the squared residuals of each point, (p,)."""
-    problem, square = placement.problem, placement.residuals**2
-    count = len(problem)
-    share = np.bincount(problem.first, square, count) + np.bincount(problem.second, square, count)
-    return np.asarray(share, dtype=np.float64)
+    return here.problem.at(mixed(there.shares < here.shares, there.points, here.points))
 
 
 def _resized(radius: float, agreement: float) -> float:

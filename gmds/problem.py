@@ -76,6 +76,14 @@ class Problem:
         object.__setattr__(other, "target_distance", target_distance)
         return other
 
+    def head(self, count: int) -> Problem:
+        """The problem of the first `count` samples alone; `unit` stays."""
+        other, kept = copy.copy(self), self.second < count
+        object.__setattr__(other, "source_points", self.source_points[:count])
+        for name in ("first", "second", "source_distances", "root_weights"):
+            object.__setattr__(other, name, getattr(self, name)[kept & (self.first < count)])
+        return other
+
     def at(self, points: SurfacePoints) -> Placement:
         """The problem seen from target points (p,), with residuals and their derivative."""
         if len(points) != len(self):
@@ -83,6 +91,12 @@ class Problem:
         if points.mesh is not self.target_distance.mesh:
             raise ValueError("the points lie on another mesh than the target distance measures")
         return Placement(self, points, pairwise(self.target_distance, points))
+
+    def distance_table(self) -> Array:
+        """Source distances (p, p) of the pairs that are asked for, NaN elsewhere."""
+        table = np.full((len(self), len(self)), np.nan)
+        table[self.first, self.second] = table[self.second, self.first] = self.source_distances
+        return table
 
     def compare(self, distances: Array) -> Array:
         """Residuals (r,) of target distances (p, p); a pair out of reach counts as three mean distances apart."""
@@ -110,6 +124,13 @@ class Placement:
         return self.problem.compare(self.distances)
 
     @functools.cached_property
+    def shares(self) -> Array:
+        """The sum of the squared residuals of each sample, (p,)."""
+        problem, square = self.problem, self.residuals**2
+        share = [np.bincount(side, square, len(problem)) for side in (problem.first, problem.second)]
+        return np.add(*share).astype(np.float64)
+
+    @functools.cached_property
     def derivatives(self) -> Array:
         """Of the residuals by the in-face displacement of their two points, (r, 2, 2)."""
         first, second = self.problem.first, self.problem.second
@@ -133,6 +154,18 @@ class Placement:
         """The same with walls: no weight of a point may fall below zero, so that no point leaves its face."""
         slope = np.einsum("pkx,pxy->pky", barycentric_gradient(self.points), self.jacobian.frames)
         return replace(self.jacobian, walls=(self.points.barycentric, slope))
+
+
+def mixed(choice: NDArray[np.bool_], points: SurfacePoints, others: SurfacePoints) -> SurfacePoints:
+    """Of two sets of points (p,) on one mesh, those of the first where `choice` (p,) is True, else of the second."""
+    face = np.where(choice, points.face, others.face)
+    return SurfacePoints(points.mesh, face, np.where(choice[:, None], points.barycentric, others.barycentric))
+
+
+def joined(points: SurfacePoints, others: SurfacePoints) -> SurfacePoints:
+    """Both sets of points on one mesh, one after the other."""
+    face = np.concatenate([points.face, others.face])
+    return SurfacePoints(points.mesh, face, np.concatenate([points.barycentric, others.barycentric]))
 
 
 def _pairs(pairs: ArrayLike | None, count: int) -> tuple[Index, Index]:
