@@ -53,11 +53,11 @@ def _visible(xy: Array, depth: Array, faces: NDArray[np.int64], width: int, heig
     a, b, c = (corners[:, k] for k in range(3))
     determinant = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
     px, py = x + 0.5 - a[face, 0], y + 0.5 - a[face, 1]
-    with np.errstate(divide="ignore", invalid="ignore"):  # edge-on faces have determinant 0 and cover no pixel
-        v = (px * (c - a)[face, 1] - py * (c - a)[face, 0]) / determinant[face]
-        w = (py * (b - a)[face, 0] - px * (b - a)[face, 1]) / determinant[face]
+    safe = np.where(determinant == 0, 1, determinant)  # edge-on faces cover no pixel
+    v = (px * (c - a)[face, 1] - py * (c - a)[face, 0]) / safe[face]
+    w = (py * (b - a)[face, 0] - px * (b - a)[face, 1]) / safe[face]
     weights = np.stack([1 - v - w, v, w], axis=1)
-    inside = np.flatnonzero((weights >= -1e-9).all(axis=1) & np.isfinite(weights).all(axis=1))
+    inside = np.flatnonzero((weights >= -1e-9).all(axis=1) & (determinant != 0)[face])
     face, weights, pixel = face[inside], weights[inside], (y * width + x)[inside]
     order = np.lexsort(((weights * depth[faces[face]]).sum(axis=1), pixel))
     last = order[np.append(np.flatnonzero(np.diff(pixel[order])), len(order) - 1)] if len(order) else order

@@ -24,12 +24,8 @@ def broadside(mesh: Mesh, up: Direction = (0, 0, 1), azimuth: float = 30.0, elev
     flat = mesh.vertices - mesh.vertices.mean(axis=0)
     flat = flat - np.outer(flat @ z, z)
     x = np.linalg.svd(flat / max(np.abs(flat).max(), 1e-300), full_matrices=False)[2][0]
-    x -= (x @ z) * z
-    x /= np.linalg.norm(x) if np.linalg.norm(x) > 1e-9 else 1
-    x *= np.sign(x[np.abs(x).argmax()])
-    if not np.isclose(np.linalg.norm(x), 1):  # a vertical line: any direction will do
-        x = np.cross(z, np.eye(3)[np.abs(z).argmin()])
-        x /= np.linalg.norm(x)
+    x -= (x @ z) * z  # a mesh has an area, so it is not a vertical line and x is a direction
+    x *= np.sign(x[np.abs(x).argmax()]) / np.linalg.norm(x)
     return view_rotation(azimuth - 90, elevation) @ np.stack([x, np.cross(z, x), z])
 
 

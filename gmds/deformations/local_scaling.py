@@ -49,7 +49,7 @@ def branch_log_scale(mesh: Mesh, factor: float, *, count: int = 2, reach: float 
     """A smooth field u (n,): `count` extremities grow by `factor`, every second shrinks by it.
 
     The field falls from its full value at an extremity to zero over `reach` times the distance to the middle of the
-    surface. Extremities are chosen at random from those found.
+    surface; fields that overlap add up. Extremities are chosen at random from those found.
     """
     tips, middle = extremities(mesh)
     chosen = np.random.default_rng(rng).permutation(tips)[:count]
