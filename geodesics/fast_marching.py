@@ -23,8 +23,9 @@ Integers = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class GeodesicDistance:
-    """Geodesic distance in a metric (sec. 6), by fast marching (Kimmel, Sethian 1998) with unfolded sources.
+    """Geodesic distance in a metric, by fast marching (Kimmel, Sethian 1998) with unfolded sources.
 
+    With the scale-invariant metric these are the scale invariant geodesics of the abstract.
     A conformal metric is marched over the intrinsic Delaunay triangulation of the embedded one, whose angles it
     shares; any other metric over the mesh's own faces. At most `threads` sources are marched at once; the numbers do
     not depend on it.

@@ -49,7 +49,7 @@ class Cells(NamedTuple):
 
 
 def farthest_point_sampling(distance: Distance, count: int, first: int | None = None) -> Integers:
-    """`count` vertices (count,), each the farthest from those before it (Gonzalez 1985; the sampling of sec. 6).
+    """`count` vertices (count,), each the farthest from those before it (Gonzalez 1985; sec. 5, Fig. 6).
 
     Starts at vertex `first`, else at the vertex farthest from the centroid. Every component of at least four vertices
     gets its sample; an isolated vertex is never chosen. Raises `ValueError` when `count` is more than there are.
@@ -81,7 +81,7 @@ def farthest_point_cells(distance: Distance, count: int, first: int | None = Non
 
 
 def voronoi_cells(distance: Distance, samples: ArrayLike) -> Integers:
-    """The index into `samples` (count,) of the nearest one for every vertex (n,); -1 where none is reachable."""
+    """The index into `samples` (count,) of the nearest one for every vertex (n,), or -1: the cells of Fig. 6."""
     n, closer = distance.mesh.n_vertices, _spreader(distance)
     nearest, cell = np.full(n, np.inf), np.full(n, -1, dtype=np.int64)
     for i, vertex in enumerate(np.asarray(samples, dtype=np.int64).reshape(-1)):
