@@ -18,7 +18,7 @@ from geodesics.topology import boundary_vertices
 Array = NDArray[np.float64]
 
 # chosen on half of the shapes of benchmarks/curvature_stability.py
-SMOOTHING = 8e-3
+SMOOTHING = 4e-3
 COARSE = 3e-3  # of the area of the surface
 
 
