@@ -89,10 +89,11 @@ def _orthonormal(image: Array, basis: Array, random: np.random.Generator) -> tup
     size = np.linalg.norm(image, axis=0)
     image -= basis @ (basis.T @ image)
     block, link = np.linalg.qr(image)
-    if np.abs(np.diag(link)).min() > 1e-6 * max(size.max(), np.finfo(float).tiny):
+    left = np.abs(np.diag(link)) / max(size.max(), np.finfo(float).tiny)
+    if left.min() > 1e-6:
         return block, link
-    # the space is (nearly) exhausted: go on in a random direction, to which nothing links
-    lost = np.abs(np.diag(link)) <= 1e-6 * size.max()
+    # hardly anything new: clean what there is, and where there is nothing go on in a random direction
+    lost = left <= 1e-13
     block[:, lost] = random.standard_normal((len(image), np.count_nonzero(lost)))
     for _ in range(2):
         block -= basis @ (basis.T @ block)
