@@ -92,41 +92,42 @@ def _sink(heap: Integers, keys: Floats, position: Integers, size: int) -> None:
 @njit
 def _slope(arrival: float, along: float, whole: float, ratio: float) -> float:
     """Derivative of the distance along an edge, -cos of the angle to the way back (1 in the shadow of a saddle)
-    times the ratio of the slownesses of vertex and face; inf where it is not known."""
+    times the ratio of the slownesses of vertex and face; nan where it is not known."""
     turn = abs(arrival - along)
     if turn > 0.5 * whole:
         turn = abs(whole - turn)
     if not turn < HALF_GAP:
-        return math.inf
+        return math.nan
     return -ratio * math.cos(min(turn, math.pi))
 
 
 @njit
 def _cross(d0: float, d1: float, length: float, x: float, y: float, p0: float, p1: float) -> tuple[float, float]:
-    """Distance at (x, y), y > 0, behind the edge from (0, 0) to (length, 0), and where on the edge its path crosses.
+    """Distance at (x, y), y > 0, behind the edge from (0, 0) to (length, 0), and where on the edge its path crosses;
+    inf where the path misses the edge.
 
-    d0, d1 are the distances at the ends, p0, p1 their derivatives along the edge. The source is unfolded into the
-    plane at those distances (Novotni, Klein 2002). The cubic that corrects its slopes at the ends is added to the
-    distance along the edge, and the crossing moved by one Newton step: fourth order where the wave is smooth.
+    d0, d1 are the distances at the ends, p0, p1 their derivatives along the edge (nan: not known). The source is
+    unfolded into the plane at those distances (Novotni, Klein 2002). The cubic that corrects its slopes at the ends
+    is added to the distance along the edge, to fourth order, and the crossing moved by one Newton step.
     """
     xs = 0.5 * (length + (d0 - d1) * (d0 + d1) / length)
     ys = math.sqrt(max((d0 - xs) * (d0 + xs), 0.0))
     at = xs + (x - xs) * (ys / (ys + y))
-    if not at > 0.0:
-        return d0 + math.sqrt(x * x + y * y), 0.0
-    if at >= length:
-        return d1 + math.sqrt((x - length) * (x - length) + y * y), length
-    reach = math.sqrt((x - xs) * (x - xs) + (y + ys) * (y + ys))
-    m0 = p0 + xs / d0 if d0 > 0.0 else 0.0
-    m1 = p1 - (length - xs) / d1 if d1 > 0.0 else 0.0
-    if not abs(m0) + abs(m1) < 0.5:  # two waves meet here, or a slope is not known
-        return reach, at
+    if not 0.0 < at < length:
+        return math.inf, 0.0
+    if not ys > 0.0:  # the source is on the edge
+        return math.sqrt((x - at) * (x - at) + y * y), at
+    m0 = p0 + xs / d0 if d0 > 0.0 and p0 == p0 else 0.0
+    m1 = p1 - (length - xs) / d1 if d1 > 0.0 and p1 == p1 else 0.0
     t = at / length
-    u = 1.0 - t
-    tilt = m0 * u * (u - 2.0 * t) + m1 * t * (t - 2.0 * u)
-    depth = (ys + y) * (ys + y)
-    step = tilt * reach * reach * reach * ys * y / (depth * depth)
-    return reach + length * t * u * (m0 * u - m1 * t) - 0.5 * tilt * step, min(max(at - step, 0.0), length)
+    r0, r1 = math.sqrt((at - xs) * (at - xs) + ys * ys), math.sqrt((at - x) * (at - x) + y * y)
+    tilt = (at - xs) / r0 + (at - x) / r1 + m0 * (1.0 - t) * (1.0 - 3.0 * t) + m1 * t * (3.0 * t - 2.0)
+    plain = ys * ys / (r0 * r0 * r0) + y * y / (r1 * r1 * r1)
+    bend = max(plain + (m0 * (6.0 * t - 4.0) + m1 * (6.0 * t - 2.0)) / length, 0.2 * plain)
+    at = min(max(at - tilt / bend, 0.0), length)
+    t = at / length
+    r0, r1 = math.sqrt((at - xs) * (at - xs) + ys * ys), math.sqrt((at - x) * (at - x) + y * y)
+    return r0 + r1 + length * t * (1.0 - t) * (m0 * (1.0 - t) - m1 * t), at
 
 
 @inlined
@@ -150,6 +151,26 @@ def _modulo(direction: float, whole: float) -> float:
     if direction < 0.0 and whole < HALF_GAP:
         return direction + whole
     return direction - whole if direction >= whole else direction
+
+
+@inlined
+def _behind(shape: Floats, q: int, side: int, edge: float, distance: float) -> bool:
+    """True when the far vertex of corner q's face, nearer than v, can not be lowered through the edge on this `side`.
+
+    That edge and the source must lie on v's side of the middle between v and the far vertex: an acute angle there
+    is enough for a source at infinity, and near ones are excluded by their distance.
+    """
+    along, across = shape[q, side], shape[q, 1 - side]
+    return 2.0 * (across - along * shape[q, 2]) * (distance - edge) >= edge * (along + across)
+
+
+@inlined
+def _goes_on(state: Floats, v: int, direction: float) -> bool:
+    """True when the shortest path to v may go on along an edge: straight, past a saddle or border, or from a source.
+
+    Elsewhere the edge only stands in for a better path still to come, and says nothing about directions.
+    """
+    return not _slope(state[v, 1], direction, state[v, 3], 1.0) < 0.995
 
 
 @njit
@@ -178,10 +199,9 @@ def march(corners: Corners, front: Front, until: Until) -> None:
             for side in range(2):
                 a, c = ends[q, side], ends[q, 1 - side]
                 place = position[c]
-                acute = shape[q, 1 - side] >= shape[q, side] * shape[q, 2]
-                if place == ACCEPTED and acute and state[c, 0] <= dv:
-                    continue
                 edge = slowness[q] * shape[q, 1 - side]
+                if place == ACCEPTED and state[c, 0] <= dv and _behind(shape, q, side, edge, dv - state[v, 2]):
+                    continue
                 new, direction, offset = dv + edge, shape[q, 7 - side], state[v, 2]
                 if position[a] == ACCEPTED:
                     other, turned, source = _through(state, shape, slowness[q], q, side, v, a)
@@ -190,6 +210,8 @@ def march(corners: Corners, front: Front, until: Until) -> None:
                 gain = state[c, 0] - new
                 if not gain > 0.0 or (place == ACCEPTED and (visits[c] >= VISITS or gain < 1e-7 * edge)):
                     continue
+                if new == dv + edge and not _goes_on(state, v, shape[q, 5 - side]):
+                    direction = math.nan
                 state[c, 0], state[c, 1], state[c, 2] = new, direction, offset
                 if place == UNSEEN:
                     touched[reached] = c
