@@ -1,4 +1,4 @@
-"""Heat kernel signatures of a shape and its locally scaled copy, in two metrics (Figs 4 and 5)."""
+"""Heat kernel signatures of a shape and its locally scaled copy, in two metrics (Fig. 4, Fig. 5)."""
 
 import numpy as np
 

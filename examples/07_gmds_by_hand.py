@@ -1,4 +1,4 @@
-"""Generalised multidimensional scaling step by step: samples, a start, a problem, three losses (sec. 5)."""
+"""Generalised multidimensional scaling step by step: samples, a start, a problem, three losses (sec. 5, Fig. 7)."""
 
 import numpy as np
 

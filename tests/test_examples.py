@@ -93,3 +93,8 @@ def test_09_transfer(run) -> None:
     assert float(re.search(r"([\d.]+) % of the labels", text).group(1)) > 99
     assert float(re.search(r"again: ([\d.]+) away", text).group(1)) < 0.01
     assert "saved and loaded: True" in text
+
+
+def test_10_eigenfunctions_survive_local_scaling(run) -> None:
+    kept = table(run(10), r"(\w+) +matched eigenfunctions correlate by ([\d.]+)")
+    assert kept["scale_invariant",] > 0.9 > kept["embedded",]

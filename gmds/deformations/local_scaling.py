@@ -17,6 +17,7 @@ Array = NDArray[np.float64]
 def local_scaling(mesh: Mesh, log_scale: ArrayLike) -> tuple[Mesh, SurfacePoints]:
     """The mesh with edge ij as nearly l_ij exp((u_i + u_j) / 2) long as space allows, and where its vertices went.
 
+    These are the local scales of the experiments (sec. 5, Fig. 2): isotropic, different from place to place.
     `log_scale` u (n,) is the natural logarithm of the wanted scale at each vertex. No surface in space has exactly
     these lengths in general: `achieved_log_scale` measures what came of it. A constant u is a similarity, exactly.
     Raises `BadShape` when u has another shape or is not finite.
