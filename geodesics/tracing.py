@@ -78,11 +78,11 @@ def layout(mesh: Mesh) -> Array:
     """Each face in its own plane, (m, 3): corner 0 = (0, 0), corner 1 = (column 0, 0), corner 2 = (columns 1, 2).
 
     Degenerate faces get a little width: all edges are lengthened by one amount, just enough for every triangle
-    inequality to hold by a millionth of the mean edge (Sharp and Crane 2020, "intrinsic mollification").
+    inequality to hold by 1e-10 of the mean edge (Sharp and Crane 2020, "intrinsic mollification").
     """
     length = np.sqrt(intrinsic.squared_lengths(mesh.vertices, mesh.faces))
     excess = 2 * length.max(axis=1) - length.sum(axis=1)
-    length = length + max(0.0, float(excess.max()) + 1e-6 * float(length.mean()))
+    length = length + max(0.0, float(excess.max()) + 1e-10 * float(length.mean()))
     a, b, c = length.T
     x = (b * b + c * c - a * a) / (2 * c)
     return np.stack([c, x, 2 * intrinsic.areas(length**2) / c], axis=1)

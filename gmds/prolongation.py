@@ -35,12 +35,23 @@ def costs(distances: Array, weights: Array, target_distance: Distance, placed: S
     return cost
 
 
-def relocated(placement: Placement) -> Placement:
+def relocated(placement: Placement, rounds: int = 3) -> Placement:
     """The placement with samples moved to the vertices that suit them best while the others stay.
 
     A sample wants to move when its own squared residuals fall by a twentieth at least. All who want move together;
-    while that does not lower the sum of all squared residuals, only the half of them with more to gain.
+    while that does not lower the sum of all squared residuals, only the half of them with more to gain. At most
+    `rounds` times, as samples moved first draw others along.
     """
+    for _ in range(rounds):
+        moved = _relocated_once(placement)
+        if moved is placement:
+            break
+        placement = moved
+    return placement
+
+
+def _relocated_once(placement: Placement) -> Placement:
+    """One round of `relocated`; the placement itself when nobody moves."""
     problem, points, index = placement.problem, placement.points, np.arange(len(placement.problem))
     distances, weights = np.zeros((2, len(problem), len(problem)))
     for one, other in ((problem.first, problem.second), (problem.second, problem.first)):

@@ -72,7 +72,7 @@ def remarch(start: Placement, settle: Settler, max_iterations: int, max_rounds: 
         there = here.problem.at(last.here.points) if promised > 0 else here
         gain = stress - loss.value(there.residuals)
         if gain > 0:
-            here, stress = there, stress - gain
+            here, stress = there, loss.value(there.residuals)
         ended = last.status is not Status.ITERATION_LIMIT
         unkept = promised - max(gain, 0.0) + (last.foretold if ended else 0.0)
         answer = replace(last, here=here, stress=stress, iteration=iteration, foretold=unkept)
