@@ -12,6 +12,8 @@ from geodesics._kernels.jit import inlined, njit
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
+Pair = tuple[float, float]
+Triple = tuple[float, float, float]
 
 UNSEEN, ACCEPTED = -1, -2  # in place of a position in the heap
 HALF_GAP = 500.0  # radians: directions further apart are of two fans of faces that meet only in the vertex
@@ -90,58 +92,64 @@ def _sink(heap: Integers, keys: Floats, position: Integers, size: int) -> None:
 
 
 @njit
-def _slope(arrival: float, along: float, whole: float, ratio: float) -> float:
-    """Derivative of the distance along an edge, -cos of the angle to the way back (1 in the shadow of a saddle)
-    times the ratio of the slownesses of vertex and face; nan where it is not known."""
+def _slope(arrival: float, along: float, whole: float) -> float:
+    """Derivative of the distance along an edge: -cos of the angle to the way back, 1 in the shadow of a saddle, nan
+    where it is not known."""
     turn = abs(arrival - along)
     if turn > 0.5 * whole:
         turn = abs(whole - turn)
     if not turn < HALF_GAP:
         return math.nan
-    return -ratio * math.cos(min(turn, math.pi))
+    return -math.cos(min(turn, math.pi))
 
 
 @njit
-def _cross(d0: float, d1: float, length: float, x: float, y: float, p0: float, p1: float) -> tuple[float, float]:
+def _cross(ends: Pair, slopes: Pair, weights: Pair, length: float, x: float, y: float) -> Pair:
     """Distance at (x, y), y > 0, behind the edge from (0, 0) to (length, 0), and where on the edge its path crosses;
     inf where the path misses the edge.
 
-    d0, d1 are the distances at the ends, p0, p1 their derivatives along the edge (nan: not known). The source is
-    unfolded into the plane at those distances (Novotni, Klein 2002). The cubic that corrects its slopes at the ends
-    is added to the distance along the edge, to fourth order, and the crossing moved by one Newton step.
+    `ends` are the distances d0, d1 at the ends of the edge, `slopes` their derivatives along it (nan: not known), and
+    `weights` the cost per length of the path from either end to (x, y), near 1. The source is unfolded into the plane
+    at those distances (Novotni, Klein 2002). The cubic that corrects its slopes at the ends is added to the distance
+    along the edge, to fourth order, and the crossing moved by one Newton step.
     """
+    (d0, d1), (p0, p1), (w0, w1) = ends, slopes, weights
     xs = 0.5 * (length + (d0 - d1) * (d0 + d1) / length)
     ys = math.sqrt(max((d0 - xs) * (d0 + xs), 0.0))
     at = xs + (x - xs) * (ys / (ys + y))
     if not 0.0 < at < length:
         return math.inf, 0.0
-    if not ys > 0.0:  # the source is on the edge
-        return math.sqrt((x - at) * (x - at) + y * y), at
     m0 = p0 + xs / d0 if d0 > 0.0 and p0 == p0 else 0.0
     m1 = p1 - (length - xs) / d1 if d1 > 0.0 and p1 == p1 else 0.0
-    t = at / length
+    t, w = at / length, w0 + (w1 - w0) * at / length
+    if ys > 0.0:  # else the source is on the edge
+        r0, r1 = math.sqrt((at - xs) * (at - xs) + ys * ys), math.sqrt((at - x) * (at - x) + y * y)
+        tilt = (at - xs) / r0 + w * (at - x) / r1 + r1 * (w1 - w0) / length
+        tilt += m0 * (1.0 - t) * (1.0 - 3.0 * t) + m1 * t * (3.0 * t - 2.0)
+        plain = ys * ys / (r0 * r0 * r0) + w * y * y / (r1 * r1 * r1)
+        bend = max(plain + (m0 * (6.0 * t - 4.0) + m1 * (6.0 * t - 2.0)) / length, 0.2 * plain)
+        at = min(max(at - tilt / bend, 0.0), length)
+    t, w = at / length, w0 + (w1 - w0) * at / length
     r0, r1 = math.sqrt((at - xs) * (at - xs) + ys * ys), math.sqrt((at - x) * (at - x) + y * y)
-    tilt = (at - xs) / r0 + (at - x) / r1 + m0 * (1.0 - t) * (1.0 - 3.0 * t) + m1 * t * (3.0 * t - 2.0)
-    plain = ys * ys / (r0 * r0 * r0) + y * y / (r1 * r1 * r1)
-    bend = max(plain + (m0 * (6.0 * t - 4.0) + m1 * (6.0 * t - 2.0)) / length, 0.2 * plain)
-    at = min(max(at - tilt / bend, 0.0), length)
-    t = at / length
-    r0, r1 = math.sqrt((at - xs) * (at - xs) + ys * ys), math.sqrt((at - x) * (at - x) + y * y)
-    return r0 + r1 + length * t * (1.0 - t) * (m0 * (1.0 - t) - m1 * t), at
+    return r0 + w * r1 + length * t * (1.0 - t) * (m0 * (1.0 - t) - m1 * t), at
 
 
 @inlined
-def _through(
-    state: Floats, shape: Floats, slow: float, q: int, side: int, v: int, a: int
-) -> tuple[float, float, float]:
-    """Distance, direction back and offset of the source at the far vertex of corner q's face, over the edge v to a."""
+def _through(state: Floats, shape: Floats, slow: float, q: int, side: int, v: int, a: int, c: int) -> Triple:
+    """Distance, direction back and offset of the source at c, over the face of corner q and its edge from v to a."""
     along, across = slow * shape[q, side], slow * shape[q, 1 - side]
     x, y = across * shape[q, 2], across * shape[q, 3]
+    s0, s1, s2 = state[v, 4] / slow, state[a, 4] / slow, state[c, 4] / slow
     offset = min(state[v, 2], state[a, 2])
-    p0 = _slope(state[v, 1], shape[q, 4 + side], state[v, 3], state[v, 4] / slow)
-    p1 = -_slope(state[a, 1], shape[q, 6 + side], state[a, 3], state[a, 4] / slow)
-    reach, at = _cross(state[v, 0] - offset, state[a, 0] - offset, along, x, y, p0, p1)
+    ends = (state[v, 0] - offset, state[a, 0] - offset)
+    p0 = s0 * _slope(state[v, 1], shape[q, 4 + side], state[v, 3])
+    p1 = -s1 * _slope(state[a, 1], shape[q, 6 + side], state[a, 3])
+    reach, at = _cross(ends, (p0, p1), (0.5 * (s0 + s2), 0.5 * (s1 + s2)), along, x, y)
     angle = math.atan2(y * at, x * (x - at) + y * y)
+    if s0 != s1 or s0 != s2:  # rays turn towards the slow side: half of it falls behind the middle of the path
+        sx = (s1 - s0) / along
+        sy = (s2 - s0 - sx * x) / y
+        angle += 0.5 * (sy * (x - at) - sx * y) / s2
     return reach + offset, shape[q, 7 - side] + (1 - 2 * side) * angle, offset
 
 
@@ -170,7 +178,7 @@ def _goes_on(state: Floats, v: int, direction: float) -> bool:
 
     Elsewhere the edge only stands in for a better path still to come, and says nothing about directions.
     """
-    return not _slope(state[v, 1], direction, state[v, 3], 1.0) < 0.995
+    return not _slope(state[v, 1], direction, state[v, 3]) < 0.995
 
 
 @njit
@@ -199,12 +207,12 @@ def march(corners: Corners, front: Front, until: Until) -> None:
             for side in range(2):
                 a, c = ends[q, side], ends[q, 1 - side]
                 place = position[c]
-                edge = slowness[q] * shape[q, 1 - side]
+                edge = 0.5 * (state[v, 4] + state[c, 4]) * shape[q, 1 - side]
                 if place == ACCEPTED and state[c, 0] <= dv and _behind(shape, q, side, edge, dv - state[v, 2]):
                     continue
                 new, direction, offset = dv + edge, shape[q, 7 - side], state[v, 2]
                 if position[a] == ACCEPTED:
-                    other, turned, source = _through(state, shape, slowness[q], q, side, v, a)
+                    other, turned, source = _through(state, shape, slowness[q], q, side, v, a, c)
                     if other < new:
                         new, direction, offset = other, _modulo(turned, state[c, 3]), source
                 gain = state[c, 0] - new
