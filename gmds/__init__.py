@@ -28,10 +28,12 @@ if TYPE_CHECKING:
     from gmds.losses import Minimax as Minimax
     from gmds.losses import Power as Power
     from gmds.matching import match as match
+    from gmds.multiresolution import solve_multiresolution as solve_multiresolution
     from gmds.problem import Problem as Problem
     from gmds.solver import Solution as Solution
     from gmds.solver import solve as solve
     from gmds.status import Status as Status
+    from gmds.tabulated import TabulatedDistance as TabulatedDistance
 
 # every public name, by the module it lives in
 _NAMES = {
@@ -40,9 +42,11 @@ _NAMES = {
     "evaluation": ("ErrorSummary", "error_curve", "geodesic_error", "summary"),
     "losses": ("Huber", "LeastSquares", "Minimax", "Power"),
     "matching": ("match",),
+    "multiresolution": ("solve_multiresolution",),
     "problem": ("Problem",),
     "solver": ("Solution", "solve"),
     "status": ("Status",),
+    "tabulated": ("TabulatedDistance",),
 }
 _SUBMODULES = ("benchmarking", "datasets", "errors", "initialization", "pictures", "report", "shapes")
 _HOME = {name: module for module, names in _NAMES.items() for name in names}
