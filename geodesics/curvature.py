@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from geodesics import intrinsic
 from geodesics._memo import memoized
 from geodesics._sparse import factorised
-from geodesics.delaunay import IntrinsicTriangulation, intrinsic_delaunay
+from geodesics.delaunay import IntrinsicTriangulation, intrinsic_delaunay, proper_faces
 from geodesics.laplacian import cotangent_matrix, vertex_areas, vertex_sums
 from geodesics.mesh import Mesh
 from geodesics.orientation import orient_faces
@@ -27,16 +27,17 @@ def angle_defect(mesh: Mesh) -> Array:
 
     The numerator of |K_i| below (4.5). Over a closed surface it sums to 2 pi times the Euler characteristic.
     """
-    theta = intrinsic.angles(intrinsic.squared_lengths(mesh.vertices, mesh.faces))
+    faces = mesh.faces[proper_faces(mesh.faces)]
+    theta = intrinsic.angles(intrinsic.squared_lengths(mesh.vertices, faces))
     flat = np.where(boundary_vertices(mesh), np.pi, 2 * np.pi)
-    flat[np.bincount(mesh.faces.ravel(), minlength=mesh.n_vertices) == 0] = 0
-    return flat - vertex_sums(mesh.faces, theta, mesh.n_vertices)
+    flat[np.bincount(faces.ravel(), minlength=mesh.n_vertices) == 0] = 0
+    return flat - vertex_sums(faces, theta, mesh.n_vertices)
 
 
 def one_ring_areas(mesh: Mesh) -> Array:
     """A_ii of (4.5): the area of all faces that contain the vertex, shape (n,), units of length^2."""
-    area = intrinsic.areas(intrinsic.squared_lengths(mesh.vertices, mesh.faces))
-    return vertex_sums(mesh.faces, area, mesh.n_vertices)
+    faces = mesh.faces[proper_faces(mesh.faces)]
+    return vertex_sums(faces, intrinsic.areas(intrinsic.squared_lengths(mesh.vertices, faces)), mesh.n_vertices)
 
 
 def one_ring_curvature(mesh: Mesh) -> Array:

@@ -28,14 +28,18 @@ def areas(l_sq: Array) -> Array:
 
 def cotangents(l_sq: Array) -> Array:
     """Cotangents (m, 3) of the corner angles: cot_k = (sum of the other two - l_k^2) / (4 area); finite on slivers."""
-    area = np.maximum(areas(l_sq), 0.5 * _SLIVER * l_sq.max(axis=1))
+    area = _areas_of_slivers(l_sq)
     return (l_sq.sum(1, keepdims=True) - 2 * l_sq) / (4 * np.where(area > 0, area, 1))[:, None]
 
 
 def angles(l_sq: Array) -> Array:
-    """Corner angles (m, 3) in radians."""
+    """Corner angles (m, 3) in radians; those of a sliver add up to pi as well."""
     opposite_sum = l_sq.sum(1, keepdims=True) - 2 * l_sq
-    return np.arctan2(4 * areas(l_sq)[:, None], opposite_sum)
+    return np.arctan2(4 * _areas_of_slivers(l_sq)[:, None], opposite_sum)
+
+
+def _areas_of_slivers(l_sq: Array) -> Array:
+    return np.maximum(areas(l_sq), 0.5 * _SLIVER * l_sq.max(axis=1))
 
 
 def tensor_from_lengths(l_sq: Array) -> Array:

@@ -7,13 +7,15 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from geodesics._memo import memoized
+from geodesics.delaunay import proper_faces
 from geodesics.mesh import Mesh
 
 
 @memoized
 def boundary_vertices(mesh: Mesh) -> NDArray[np.bool_]:
     """True where a vertex touches an edge with only one face, shape (n,)."""
-    edges = np.sort(mesh.faces[:, [[1, 2], [2, 0], [0, 1]]].reshape(-1, 2), axis=1)
+    faces = mesh.faces[proper_faces(mesh.faces)]
+    edges = np.sort(faces[:, [[1, 2], [2, 0], [0, 1]]].reshape(-1, 2), axis=1)
     _, first, count = np.unique(edges[:, 0] * mesh.n_vertices + edges[:, 1], return_index=True, return_counts=True)
     mask = np.zeros(mesh.n_vertices, dtype=bool)
     mask[edges[first[count == 1]]] = True
