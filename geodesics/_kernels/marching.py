@@ -139,12 +139,15 @@ def _through(state: Floats, shape: Floats, slow: float, q: int, side: int, v: in
     """Distance, direction back and offset of the source at c, over the face of corner q and its edge from v to a."""
     along, across = slow * shape[q, side], slow * shape[q, 1 - side]
     x, y = across * shape[q, 2], across * shape[q, 3]
-    s0, s1, s2 = state[v, 4] / slow, state[a, 4] / slow, state[c, 4] / slow
+    ratio = 1.0 / slow
+    s0, s1, s2 = ratio * state[v, 4], ratio * state[a, 4], ratio * state[c, 4]
     offset = min(state[v, 2], state[a, 2])
     ends = (state[v, 0] - offset, state[a, 0] - offset)
     p0 = s0 * _slope(state[v, 1], shape[q, 4 + side], state[v, 3])
     p1 = -s1 * _slope(state[a, 1], shape[q, 6 + side], state[a, 3])
     reach, at = _cross(ends, (p0, p1), (0.5 * (s0 + s2), 0.5 * (s1 + s2)), along, x, y)
+    if not reach + offset < state[c, 0]:
+        return math.inf, 0.0, 0.0
     angle = math.atan2(y * at, x * (x - at) + y * y)
     if s0 != s1 or s0 != s2:  # rays turn towards the slow side: half of it falls behind the middle of the path
         sx = (s1 - s0) / along
