@@ -36,6 +36,20 @@ def position_colours(vertices: ArrayLike) -> Array:
     return _oklab_to_rgb(lab)
 
 
+def shown_range(values: Array) -> tuple[float, float]:
+    """From 0 to what 98 % of the finite values stay below, so that a few outliers do not hide the rest."""
+    finite = values[np.isfinite(values)]
+    return 0.0, float(np.quantile(finite, 0.98)) if len(finite) else 1.0
+
+
+def per_vertex(values: ArrayLike, count: int) -> Array:
+    """Values as float64 (count,); ValueError when there is not one for every vertex."""
+    v = np.asarray(values, dtype=np.float64)
+    if v.shape != (count,):
+        raise ValueError(f"there must be one value for each of the {count} vertices, not an array of shape {v.shape}")
+    return v
+
+
 def value_colours(values: ArrayLike, low: float, high: float) -> Array:
     """Colours (n, 3) from dark blue at `low` to yellow at `high`; grey where a value is not finite."""
     v = np.asarray(values, dtype=np.float64)

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from geodesics import Mesh
 from geodesics.errors import MissingExtra
 from geodesics.io import atomic_write
-from gmds.colours import MISSING, label_colours, position_colours, value_colours
+from gmds.colours import MISSING, label_colours, per_vertex, position_colours, shown_range, value_colours
 from gmds.correspondence import Correspondence
 from gmds.rendering import render
 from gmds.views import Direction, alignment, broadside
@@ -44,11 +44,12 @@ def write_picture(
         ("source", render(answer.source, pulled, rotation=view, pixels=pixels), None),
         ("target", render(answer.target, colours, rotation=view @ alignment(answer), pixels=pixels), None),
     ]
-    values, caption = (answer.distortion, "distortion") if errors is None else (np.asarray(errors, float), "error")
-    if np.ptp(values) > 0:
-        low, high = 0.0, float(np.quantile(values[np.isfinite(values)], 0.98))
-        shown = value_colours(np.where(answer.valid, values, np.nan), low, high)
-        panels.append((caption, render(answer.source, shown, rotation=view, pixels=pixels), (low, high)))
+    values = answer.distortion if errors is None else per_vertex(errors, answer.source.n_vertices)
+    if errors is not None or values.any():
+        limits = shown_range(values)
+        shown = value_colours(np.where(answer.valid, values, np.nan), *limits)
+        caption = "distortion" if errors is None else "error"
+        panels.append((caption, render(answer.source, shown, rotation=view, pixels=pixels), limits))
     _write(path, panels, title)
 
 
@@ -66,7 +67,7 @@ def write_values(
     Values share one colour range; with `labels` they are whole numbers with a colour each (negative: grey).
     Raises `MissingExtra` without the extra `viz`, `OSError` when the file cannot be written.
     """
-    everything = np.concatenate([np.asarray(values, dtype=np.float64) for _, _, values in surfaces])
+    everything = np.concatenate([per_vertex(values, mesh.n_vertices) for _, mesh, values in surfaces])
     finite = everything[np.isfinite(everything)]
     limits = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 1.0)
     panels: list[Panel] = []

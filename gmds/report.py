@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from geodesics import Mesh, SurfacePoints
 from geodesics.errors import MissingExtra
 from geodesics.io import atomic_write
-from gmds.colours import MISSING, position_colours, value_colours
+from gmds.colours import MISSING, per_vertex, position_colours, shown_range, value_colours
 from gmds.correspondence import Correspondence
 from gmds.views import Direction, alignment, broadside
 
@@ -49,11 +49,12 @@ def write_report(
     except ImportError as error:
         raise MissingExtra("a report needs plotly; install it with: pip install 'gmds[viz]'") from error
 
+    errors = None if errors is None else per_vertex(errors, answer.source.n_vertices)
     view = broadside(answer.source, up, azimuth=0, elevation=0)
     turned = view @ alignment(answer)
     data = {
         "surfaces": [_surface(answer.source, view), _surface(answer.target, turned)],
-        "views": _views(answer, None if errors is None else np.asarray(errors, dtype=np.float64)),
+        "views": _views(answer, errors),
         "camera": {"up": {"x": 0, "y": 1, "z": 0}, "eye": {"x": 0.95, "y": 0.45, "z": 1.7}},
     }
     script, plotly = (files("gmds.page") / "report.js").read_text("utf-8"), get_plotlyjs()
@@ -102,12 +103,11 @@ def _views(answer: Correspondence, errors: Array | None) -> list[dict[str, Any]]
     ):
         if values is None:
             continue
-        finite = values[np.isfinite(values)]
-        high = float(np.quantile(finite, 0.98)) if len(finite) else 1.0
-        shown = value_colours(np.where(answer.valid, values, np.nan), 0, high)
+        low, high = shown_range(values)
+        shown = value_colours(np.where(answer.valid, values, np.nan), low, high)
         grey = np.tile(GREY, (answer.target.n_vertices, 1))
         views.append(_map_view(name, meaning, answer, answer.points, grey, shown))
-        views[-1]["range"] = ["0", f"{high:.3g}"]
+        views[-1]["range"] = [f"{low:.3g}", f"{high:.3g}"]
     for i, candidate in enumerate(answer.candidates, start=1):
         caption = f"Stress {candidate.stress:.4g}, orientation {candidate.orientation:+.2f} (1 keeps, -1 mirrors)."
         views.append(_map_view(f"Candidate {i}", caption, answer, candidate.points, target))
@@ -130,7 +130,7 @@ def _map_view(
     }
 
 
-def _rows(answer: Correspondence, errors: ArrayLike | None) -> str:
+def _rows(answer: Correspondence, errors: Array | None) -> str:
     """The table's rows as HTML: counts, share of valid vertices, distortion, errors by the protocol."""
     valid = answer.valid
     facts = [
@@ -142,7 +142,7 @@ def _rows(answer: Correspondence, errors: ArrayLike | None) -> str:
         middle, most = np.median(answer.distortion[valid]), answer.distortion[valid].max()
         facts.append(("distortion, median and largest", f"{middle:.4g}, {most:.4g}"))
     if errors is not None and valid.any():
-        e = np.asarray(errors, dtype=np.float64)[valid]
+        e = errors[valid]
         shares = ", ".join(f"{100 * (e <= t).mean():.1f} % within {t:g}" for t in THRESHOLDS)
         facts.append(("mean error x100", f"{100 * e.mean():.2f} ({shares})"))
     return "".join(f"<tr><th>{html.escape(name)}</th><td>{html.escape(value)}</td></tr>" for name, value in facts)

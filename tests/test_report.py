@@ -139,6 +139,19 @@ def test_writing_into_a_missing_folder_raises(answer: Correspondence, tmp_path: 
             write(tmp_path / "nowhere" / "x", answer)
 
 
+def test_maps_without_any_counterpart_and_errors_without_numbers_can_be_shown(tmp_path: Path) -> None:
+    shape = tetrahedron()
+    answer = Correspondence.from_points(
+        shape, SurfacePoints.at_vertices(shape, [0, 1, 2, 3]), valid=np.zeros(4, dtype=bool)
+    )
+    for write in (write_report, write_picture):
+        write(tmp_path / "out", answer, errors=np.full(4, np.nan))
+        with pytest.raises(ValueError, match="each of the 4 vertices"):
+            write(tmp_path / "out", answer, errors=np.zeros(3))
+    with pytest.raises(ValueError, match="each of the 4 vertices"):
+        write_values(tmp_path / "out", [("short", shape, [1.0])])
+
+
 def pixels_of(path: Path) -> np.ndarray:
     from matplotlib.image import imread
 
