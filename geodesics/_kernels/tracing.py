@@ -67,7 +67,7 @@ def walk(
                 break
             time, exit_edge, outward = 1.0, -1, 0.0
             for k in range(3):
-                if rate[k] < -1e-13 * largest:
+                if rate[k] < -1e-13 * largest and b[k] < -rate[k]:
                     t = b[k] / -rate[k]
                     if t < 1e-15:
                         t = 0.0
