@@ -139,6 +139,8 @@ READ: list[tuple[str, str, str | bytes]] = [
     ("F14", "extra_big.ply", binary_ply(">", "ushort", "uint", extra=True)),
     ("F14", "seams.ply", PLY.replace("float z", "float z\nproperty float s\nproperty float t")
      .replace(V_TEXT, V_TEXT.replace("\n", " 0.5 0.1\n"))),
+    ("F14", "face_colours.ply", PLY.replace("indices\n", "indices\nproperty uchar red\nproperty int one\n")
+     .replace(F_TEXT, F_TEXT.replace("\n", " 9 1\n")).rstrip()),
     ("F14", "elements.ply", PLY_HEAD.replace("element v", "element odd 1\nproperty list uchar int what\nelement v")
      + "3 9 9 9\n" + V_TEXT + F_TEXT),
     ("F16", "nul.off", OFF.encode().replace(b"OFF\n", b"OFF # \0\xff\n")),

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from pathlib import Path
 
 import numpy as np
+import pytest
 from file_cases import OFF, PLY, READ, STL
 from reading import read_in_child
 from shapes import icosphere, rectangle
 
-from geodesics import read_mesh, write_mesh
+from geodesics import FormatError, read_mesh, write_mesh
+from geodesics.io.truncation import refuse_cut_face
 
 
 def in_every_format(folder: Path) -> list[Path]:
@@ -61,3 +64,28 @@ def test_f07_no_truncation_at_any_byte_passes_as_another_mesh(tmp_path: Path) ->
                 assert outcome["code"] in {"E104", "E201", "E203", "E204", "E205", "E206", "E207", "E105"}, outcome
                 refused += 1
     assert refused > 2000
+
+
+@pytest.mark.parametrize(
+    ("end", "last", "n_vertices", "base", "doubted"),
+    [
+        ("1", [0, 2, 1], 11, 0, True),  # 1 may have been 10
+        ("1", [0, 2, 1], 10, 0, False),  # there is no vertex 10
+        ("2", [0, 2, 1], 20, 1, True),  # counted from 1: may have been 20
+        ("2", [0, 2, 1], 19, 1, False),
+        ("0", [2, 1, 0], 100, 0, False),  # nobody writes 01
+        ("1\n", [0, 2, 1], 100, 0, False),
+        ("1 ", [0, 2, 1], 100, 0, False),
+    ],
+)
+def test_only_an_index_that_may_have_lost_digits_is_doubted(
+    end: str, last: list[int], n_vertices: int, base: int, doubted: bool
+) -> None:
+    def ask(neighbours: list[list[int]], any_size: bool = False) -> None:
+        refuse_cut_face(f"3 0 2 {end}".encode(), [*neighbours, last], n_vertices, base, Path("a"), any_size=any_size)
+
+    with pytest.raises(FormatError, match="E204") if doubted else nullcontext():
+        ask([[3, 4, 5]])
+    ask([last[::-1]])  # every edge is shared: the face fits
+    with nullcontext() if end.endswith("\n") else pytest.raises(FormatError, match="E204"):
+        ask([[3, 4, 5, 6]], any_size=True)  # a quad may have lost its last corner
