@@ -11,7 +11,7 @@ true = truth(source, target)
 
 # the tips of the two hands and the two feet, and the nose, as (source vertex, target vertex)
 x, y, z = source.rest.T
-tips = [y.argmax(), y.argmin(), (x + y - 3 * z).argmax(), (x - y - 3 * z).argmax(), (x + z).argmax()]
+tips = [y.argmax(), y.argmin(), (x + y - 3 * z).argmax(), (x - y - 3 * z).argmax(), (3 * x + z).argmax()]
 landmarks = np.stack([tips, true.nearest_vertices()[tips]], axis=1)
 for name, known in (("without", None), ("with", landmarks)):
     answer = gmds.match(source, target, landmarks=known)

@@ -18,7 +18,7 @@ for metric in (geodesics.embedded, geodesics.scale_invariant):
     correlation = a.T @ (old.mass[:, None] * b) / np.sqrt(old.mass @ b**2)
     rows, columns = linear_sum_assignment(-np.abs(correlation))
     matched = np.abs(correlation[rows, columns])
-    print(f"{metric.__name__:16} matched eigenfunctions correlate by {matched.mean():.3f}, at least {matched.min():.3f}")
+    print(f"{metric.__name__:16} matched eigenfunctions correlate by {matched.mean():.3f}, worst {matched.min():.3f}")
     sign = np.sign(correlation[0, columns[0]])
     panels = [("before", before, a[:, 0]), ("after", after, sign * new.eigenfunctions[:, 1 + columns[0]])]
     write_values(f"{metric.__name__}.png", panels, title=f"first eigenfunction, {metric.__name__}")

@@ -12,6 +12,7 @@ from geodesics import Mesh, MeshError, SurfacePoints, intrinsic
 from geodesics.errors import BadShape, NotManifold
 from geodesics.topology import boundary_vertices, vertex_components
 from gmds import deformations as d
+from gmds.deformations.extremities import edge_distances, extremities
 from gmds.shapes import quadruped
 
 EVERY = {
@@ -238,3 +239,21 @@ def test_mistakes_are_refused(animal: Mesh) -> None:
         d.remeshing(fins, 20)
     with pytest.raises(MeshError, match="is on no face"):
         d.noise(with_isolated(icosphere(1)))
+
+
+def test_extremities_are_tips_whatever_the_pose_of_the_mesh(animal: Mesh) -> None:
+    tips, middle = extremities(animal)
+    rest = animal.rest  # type: ignore[attr-defined]
+    for place in ([1.42, 0, 1.46], [-1.5, 0, 1.3], [0.6, 0.2, 0.03], [0.6, -0.2, 0.03], [0.93, 0.2, 1.98]):
+        assert np.linalg.norm(rest[tips] - place, axis=1).min() < 0.25, place
+    assert abs(rest[middle, 0]) < 0.3  # the trunk
+    turned, _ = d.similarity(animal, largest_scale=4, rng=3)
+    assert np.array_equal(extremities(turned)[0], tips)
+
+
+def test_edge_distances_are_never_shorter_than_straight_lines(animal: Mesh) -> None:
+    distance = edge_distances(animal, np.array([0, 5]))
+    straight = np.linalg.norm(animal.vertices[[0, 5]][:, None] - animal.vertices[None], axis=2)
+    assert (distance >= straight - 1e-12).all() and distance[0, 5] == pytest.approx(distance[1, 0])
+    pair = joined(icosphere(1), icosphere(1))
+    assert np.isinf(edge_distances(pair, np.array([0]))[0]).sum() == pair.n_vertices // 2

@@ -26,9 +26,10 @@ def extremities(mesh: Mesh, samples: int = 60) -> tuple[NDArray[np.int64], int]:
     """Vertices at the tips of limbs, most remote first, and the most central vertex.
 
     Remoteness is the mean distance to `samples` far-apart vertices; tips are its local maxima among these samples,
-    each the most remote one within a tenth of the largest distance.
+    each the most remote one within a quarter of the largest distance between samples.
     """
-    chosen = [int(np.argmin(mesh.vertices[:, 0]))]
+    used = np.unique(mesh.faces)
+    chosen = [int(used[((mesh.vertices[used] - mesh.vertices[used].mean(axis=0)) ** 2).sum(axis=1).argmax()])]
     distances = edge_distances(mesh, np.array(chosen))
     for _ in range(min(samples, mesh.n_vertices) - 1):
         nearest = np.where(np.isfinite(distances), distances, -1).min(axis=0)
