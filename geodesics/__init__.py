@@ -11,6 +11,9 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from geodesics.curvature import angle_defect as angle_defect
     from geodesics.curvature import gaussian_curvature as gaussian_curvature
+    from geodesics.curvature import mean_curvature as mean_curvature
+    from geodesics.curvature import principal_curvatures as principal_curvatures
+    from geodesics.curvature import vertex_normals as vertex_normals
     from geodesics.delaunay import intrinsic_delaunay as intrinsic_delaunay
     from geodesics.diffusion import BiharmonicDistance as BiharmonicDistance
     from geodesics.diffusion import CommuteTimeDistance as CommuteTimeDistance
@@ -48,7 +51,7 @@ if TYPE_CHECKING:
 
 # every public name, by the module it lives in
 _NAMES = {
-    "curvature": ("angle_defect", "gaussian_curvature"),
+    "curvature": ("angle_defect", "gaussian_curvature", "mean_curvature", "principal_curvatures", "vertex_normals"),
     "delaunay": ("intrinsic_delaunay",),
     "diffusion": ("BiharmonicDistance", "CommuteTimeDistance", "DiffusionDistance"),
     "errors": ("FormatError", "MeshError", "Note"),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
@@ -9,7 +11,9 @@ from numpy.typing import NDArray
 from geodesics import intrinsic
 from geodesics.delaunay import IntrinsicTriangulation, intrinsic_delaunay
 from geodesics.mesh import Mesh
-from geodesics.metric import Metric
+
+if TYPE_CHECKING:
+    from geodesics.metric import Metric
 
 Array = NDArray[np.float64]
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from geodesics import intrinsic
 from geodesics.delaunay import intrinsic_delaunay
+from geodesics.laplacian import vertex_areas
 from geodesics.mesh import Mesh
 
 Array = NDArray[np.float64]
@@ -31,9 +32,6 @@ class Metric:
 
 def conformal(mesh: Mesh, factor: Array) -> Metric:
     """The metric rho * g for a positive factor rho (n,) per vertex; g is the embedded metric."""
-    from geodesics.laplacian import vertex_areas
-
-    slowness = np.sqrt(factor)[mesh.faces].mean(axis=1)
-    l_sq = intrinsic.squared_lengths(mesh.vertices, mesh.faces) * slowness[:, None] ** 2
+    l_sq = intrinsic.conformal_lengths(intrinsic.squared_lengths(mesh.vertices, mesh.faces), mesh.faces, factor)
     mass = factor * vertex_areas(intrinsic_delaunay(mesh), mesh.n_vertices)
     return Metric(mesh, l_sq, mass, factor)

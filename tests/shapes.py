@@ -119,6 +119,20 @@ def tetrahedron() -> Mesh:
     return Mesh(v, [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]])
 
 
+def dumbbell(scale: float = 1.0, neck: float = 0.2, length: float = 1.5) -> Mesh:
+    """Two bumpy balls joined by a cone, the upper one `scale` times as large; vertex i stays the same point."""
+    sphere = icosphere(4)
+    t, around = sphere.vertices[:, 2], np.arctan2(sphere.vertices[:, 1], sphere.vertices[:, 0])
+    joint, ball = np.sqrt(1 - neck**2), np.abs(t) >= 0.5
+    cos = np.clip(1 - 2 * (1 - np.abs(t)) * (1 + joint), -joint, 1)  # of the angle from the pole of each ball
+    size = np.where(t > 0, scale, 1.0)
+    r = np.where(ball, size * np.sqrt(1 - cos**2), neck * (1 + (scale - 1) * (t + 0.5)))
+    middle = length * (1 + scale) / 2
+    z = np.where(ball, np.sign(t) * (middle / 2 + size * (joint + cos)), t * middle)
+    r *= 1 + 0.25 * np.exp(-12 * (1 - np.cos(around)) - 20 * (np.abs(t) - 0.75) ** 2)
+    return Mesh(np.stack([r * np.cos(around), r * np.sin(around), z], axis=1), sphere.faces)
+
+
 def joined(*meshes: Mesh, gap: float = 5.0) -> Mesh:
     """Several meshes as the components of one, each moved `gap` further along x."""
     offsets = np.cumsum([0] + [m.n_vertices for m in meshes[:-1]])
