@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,13 +22,15 @@ class _SpectralDistance:
     """Distance d(x, y) = |e(x) - e(y)| with an embedding e (n, k) that is linear on faces."""
 
     mesh: Mesh
+    spectrum: Spectrum
     embedding: Array
     _linked: bool  # False: points of different components are infinitely far apart
 
-    def _set(self, mesh: Mesh, embedding: Array, linked: bool) -> None:
+    def _set(self, spectrum: Spectrum, embedding: Array, linked: bool) -> None:
         embedding = np.ascontiguousarray(embedding)
         embedding.setflags(write=False)
-        object.__setattr__(self, "mesh", mesh)
+        object.__setattr__(self, "mesh", spectrum.mesh)
+        object.__setattr__(self, "spectrum", spectrum)
         object.__setattr__(self, "embedding", embedding)
         object.__setattr__(self, "_linked", linked)
 
@@ -43,6 +46,23 @@ class _SpectralDistance:
         if not self._linked:
             result[label[self.mesh.faces[points.face, 0]][:, None] != label] = np.inf
         return result
+
+    def spreader(self) -> Callable[[int, Array], tuple[NDArray[np.int64], Array]]:
+        """A function (vertex, nearest (n,)) -> the vertices closer to this one than `nearest`, and their distances."""
+        e, label = self.embedding, vertex_components(self.mesh)
+        norm = np.einsum("ik,ik->i", e, e)
+
+        def closer(vertex: int, nearest: Array) -> tuple[NDArray[np.int64], Array]:
+            squared = norm + norm[vertex] - 2 * (e @ e[vertex])
+            mask = (squared < nearest**2) & (label >= 0)
+            if not self._linked:
+                mask &= label == label[vertex]
+            where = np.flatnonzero(mask)
+            distance = np.linalg.norm(e[where] - e[vertex], axis=1)
+            kept = distance < nearest[where]
+            return where[kept], distance[kept]
+
+        return closer
 
 
 class DiffusionDistance(_SpectralDistance):
@@ -60,7 +80,7 @@ class DiffusionDistance(_SpectralDistance):
             raise ValueError(f"time must be >= 0 (in units of the area of the surface), not {time}")
         object.__setattr__(self, "time", float(time))
         fade = np.exp(-spectrum.eigenvalues * (time * spectrum.mass.sum()))
-        self._set(spectrum.mesh, spectrum.eigenfunctions * fade, linked=True)
+        self._set(spectrum, spectrum.eigenfunctions * fade, linked=True)
 
 
 class CommuteTimeDistance(_SpectralDistance):
@@ -68,7 +88,7 @@ class CommuteTimeDistance(_SpectralDistance):
 
     def __init__(self, spectrum: Spectrum) -> None:
         values, functions = _positive_part(spectrum)
-        self._set(spectrum.mesh, functions / np.sqrt(2 * values), linked=False)
+        self._set(spectrum, functions / np.sqrt(2 * values), linked=False)
 
 
 class BiharmonicDistance(_SpectralDistance):
@@ -79,7 +99,7 @@ class BiharmonicDistance(_SpectralDistance):
 
     def __init__(self, spectrum: Spectrum) -> None:
         values, functions = _positive_part(spectrum)
-        self._set(spectrum.mesh, functions / values, linked=False)
+        self._set(spectrum, functions / values, linked=False)
 
 
 def _positive_part(spectrum: Spectrum) -> tuple[Array, Array]:

@@ -1,0 +1,84 @@
+"""Closest points on an embedded triangle mesh, near a first guess."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics._kernels.jit import njit
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+
+@njit
+def closest_on_faces(
+    queries: Array, rows: Array, faces: Index, ring: Index, start: Index, guess: Index, rounds: int
+) -> tuple[Index, Array, Array]:
+    """Closest points to `queries` (p, k) on the faces around the vertices `guess` (p,), embedded by `rows` (n, k).
+
+    `ring[start[v]:start[v + 1]]` are the faces of vertex v. After each look the guess moves to the corner nearest to
+    the closest point, at most `rounds` times. Returns faces (p,), barycentric weights (p, 3) and squared distances.
+    """
+    p, dim = queries.shape
+    face, weight, best = np.full(p, -1, np.int64), np.zeros((p, 3)), np.full(p, np.inf)
+    for i in range(p):
+        vertex = guess[i]
+        for _ in range(rounds):
+            before = best[i]
+            for slot in range(start[vertex], start[vertex + 1]):
+                f = ring[slot]
+                a, b, c = faces[f, 0], faces[f, 1], faces[f, 2]
+                g11, g12, g22, r1, r2, rr = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+                for d in range(dim):
+                    e1, e2, x = rows[b, d] - rows[a, d], rows[c, d] - rows[a, d], queries[i, d] - rows[a, d]
+                    g11 += e1 * e1
+                    g12 += e1 * e2
+                    g22 += e2 * e2
+                    r1 += e1 * x
+                    r2 += e2 * x
+                    rr += x * x
+                u, v = _in_triangle(g11, g12, g22, r1, r2)
+                distance = rr - 2 * (u * r1 + v * r2) + u * u * g11 + 2 * u * v * g12 + v * v * g22
+                if distance < best[i]:
+                    best[i], face[i] = distance, f
+                    weight[i, 0], weight[i, 1], weight[i, 2] = 1 - u - v, u, v
+            if not best[i] < before:
+                break
+            largest = 0
+            for corner in range(1, 3):
+                if weight[i, corner] > weight[i, largest]:
+                    largest = corner
+            if faces[face[i], largest] == vertex:
+                break
+            vertex = faces[face[i], largest]
+    return face, weight, best
+
+
+@njit
+def _in_triangle(g11: float, g12: float, g22: float, r1: float, r2: float) -> tuple[float, float]:
+    """The point u e1 + v e2 of a triangle nearest to x, from the products of e1, e2 and x."""
+    det = g11 * g22 - g12 * g12
+    if det > 1e-14 * g11 * g22:
+        u, v = (g22 * r1 - g12 * r2) / det, (g11 * r2 - g12 * r1) / det
+        if u >= 0 and v >= 0 and u + v <= 1:
+            return u, v
+    best_u, best_v, best = 0.0, 0.0, np.inf
+    for edge in range(3):
+        if edge == 0:
+            t = r1 / g11 if g11 > 0 else 0.0
+            t = min(max(t, 0.0), 1.0)
+            u, v = t, 0.0
+        elif edge == 1:
+            t = r2 / g22 if g22 > 0 else 0.0
+            t = min(max(t, 0.0), 1.0)
+            u, v = 0.0, t
+        else:
+            length = g11 - 2 * g12 + g22
+            t = (r2 - r1 - g12 + g11) / length if length > 0 else 0.0
+            t = min(max(t, 0.0), 1.0)
+            u, v = 1 - t, t
+        value = -2 * (u * r1 + v * r2) + u * u * g11 + 2 * u * v * g12 + v * v * g22
+        if value < best:
+            best_u, best_v, best = u, v, value
+    return best_u, best_v

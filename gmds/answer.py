@@ -1,0 +1,85 @@
+"""From the maps that were embedded to a Correspondence: which rows count, how far to trust it, what else there is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from geodesics import SurfacePoints
+from gmds.candidates import FUNCTIONS, Hypothesis
+from gmds.correspondence import Candidate, Correspondence, MatchStatus
+from gmds.surface import Surface
+
+Array = NDArray[np.float64]
+
+POOR = 0.12  # relative stress above which distances count as badly kept
+BENT = 0.35  # correlation of curvature below which they do as well
+CLOSE = 0.25  # difference of log-likelihood, a residual, below which another map is as good
+JUDGES = 100  # samples that distortion is measured against
+
+
+def answer(
+    source: Surface, target: Surface, placed: Sequence[Hypothesis], sense: int, meta: Mapping[str, Any]
+) -> Correspondence:
+    """The best map as a `Correspondence` between the original meshes, the others as its candidates."""
+    best = placed[0]
+    valid = source.regular.spectrum.mass > 0
+    candidates = tuple(
+        Candidate(_original(source, target, h), h.evidence.stress, h.evidence.orientation) for h in placed[1:]
+    )
+    return Correspondence(
+        source=source.original,
+        target=target.original,
+        points=_original(source, target, best),
+        valid=valid,
+        distortion=_distortion(source, best),
+        status=_status(placed, sense),
+        candidates=candidates,
+        meta={**meta, "evidence": vars(best.evidence)},
+    )
+
+
+def _original(source: Surface, target: Surface, hypothesis: Hypothesis) -> SurfacePoints:
+    """The points on the original target; vertices that were left out go where the nearest one that was not went."""
+    points = hypothesis.points
+    assert points is not None
+    used = source.regular.usable
+    row = np.arange(source.mesh.n_vertices)
+    if len(used) < len(row):
+        row = used[cKDTree(source.mesh.vertices[used]).query(source.mesh.vertices)[1]]
+    face, weight = target.face_index[points.face[row]], points.barycentric[row]
+    corners, turned = target.original.faces[face], target.mesh.faces[points.face[row]]
+    order = (corners[:, :, None] == turned[:, None, :]).argmax(axis=2)  # orientation may have turned the face
+    return SurfacePoints(target.original, face, np.take_along_axis(weight, order, axis=1))
+
+
+def _distortion(source: Surface, hypothesis: Hypothesis) -> Array:
+    """Mean |d_S - d_Q| (n,) from each vertex to the samples, over the mean d_S; 1 where there is no map."""
+    ours, theirs = hypothesis.views
+    assert hypothesis.points is not None
+    k = min(FUNCTIONS, ours.functions.shape[1], theirs.functions.shape[1])
+    judges = ours.samples(JUDGES)
+    here, there = ours.distance(k).embedding, hypothesis.points.interpolate(theirs.distance(k).embedding)
+    d_source, d_target = _between(here, here[judges]), _between(there, there[judges])
+    result = np.abs(d_source - d_target).mean(axis=1) / d_source[ours.usable].mean()
+    result[ours.spectrum.mass == 0] = 1.0
+    return result
+
+
+def _status(placed: Sequence[Hypothesis], sense: int) -> MatchStatus:
+    best = placed[0].evidence
+    if best.stress > POOR or best.bend < BENT:
+        return MatchStatus.POOR
+    if len(placed) > 1 and placed[1].evidence.loss(sense) - best.loss(sense) < CLOSE:
+        return MatchStatus.AMBIGUOUS
+    return MatchStatus.GOOD
+
+
+def _between(rows: Array, others: Array) -> Array:
+    """Distances (p, q) between two sets of vectors."""
+    norms = np.einsum("ik,ik->i", rows, rows)[:, None] + np.einsum("ik,ik->i", others, others)
+    return np.sqrt(np.maximum(norms - 2 * rows @ others.T, 0))

@@ -1,0 +1,107 @@
+"""Maps under consideration: proposed by the starts, refined, weighed, and embedded by the solver."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics import SurfacePoints
+from gmds.choice import Evidence, evidence
+from gmds.conformal import ConformalClass
+from gmds.extension import extend
+from gmds.hypotheses import hypotheses
+from gmds.losses import Loss
+from gmds.pairwise import Distance
+from gmds.problem import Problem
+from gmds.refinement import ROUNDS, align, upsample
+from gmds.solver import Solution, solve
+from gmds.surface import Surface, View
+from gmds.upsampling import SampledPair
+
+Index = NDArray[np.int64]
+Start = Callable[[SampledPair], list[Index]]
+Measured = tuple[Distance, Distance]
+
+PROPOSED = 8  # maps that each metric proposes
+SAMPLES = 500  # that carry a map through spectral upsampling
+FUNCTIONS = 60  # eigenfunctions of the distances that the solver compares, and of the dense map
+ITERATIONS = 20
+APART = 0.1  # mean gap, in the same distances, below which two maps are one
+
+
+@dataclass(frozen=True, eq=False)
+class Hypothesis:
+    """A map under consideration.
+
+    `images` (n,): target vertices; `views`: the metrics in which it is measured; `points`: the images with sub-vertex
+    precision, once `solution`, the embedding of the samples, has been extended to all vertices.
+    """
+
+    images: Index
+    views: tuple[View, View]
+    evidence: Evidence
+    points: SurfacePoints | None = None
+    solution: Solution | None = None
+
+
+def proposals(source: Surface, target: Surface, starts: Sequence[Start]) -> Iterator[Hypothesis]:
+    """Maps from starts in the scale-invariant metric (2.1) and in that of space, each aligned by its own factor."""
+    factors, samples = ConformalClass(target, tuple(time for time, _ in ROUNDS)), source.regular.samples(SAMPLES)
+    for views in ((source.scale_invariant, target.scale_invariant), (source.regular, target.regular)):
+        for rough in hypotheses(SampledPair.of(*views), starts, PROPOSED):
+            images, view = align(source, factors, samples, rough)
+            both = source.regular, view
+            yield Hypothesis(images, both, evidence(source, target, both, samples, images))
+
+
+def proposals_in(
+    source: Surface, target: Surface, views: tuple[View, View], starts: Sequence[Start]
+) -> Iterator[Hypothesis]:
+    """Maps from starts in one given metric, refined in the same."""
+    samples = views[0].samples(SAMPLES)
+    for rough in hypotheses(SampledPair.of(*views), starts, 2 * PROPOSED):
+        images = upsample(*views, samples, rough)
+        yield Hypothesis(images, views, evidence(source, target, views, samples, images))
+
+
+def distinct(found: Sequence[Hypothesis], count: int, sense: int) -> list[Hypothesis]:
+    """The `count` best maps, best first, leaving out those that nearly repeat a better one."""
+    kept: list[Hypothesis] = []
+    for hypothesis in sorted(found, key=lambda h: h.evidence.loss(sense)):
+        if len(kept) < count and all(_gap(hypothesis, other) > APART for other in kept):
+            kept.append(hypothesis)
+    return kept
+
+
+def embed(
+    source: Surface,
+    target: Surface,
+    hypothesis: Hypothesis,
+    loss: Loss,
+    count: int,
+    distances: Measured | None = None,
+) -> Hypothesis:
+    """The hypothesis after generalised multidimensional scaling of `count` samples, extended to every vertex.
+
+    Distances are commute times (3.2) in the views of the hypothesis, unless others are given.
+    """
+    ours, theirs = hypothesis.views
+    k = min(FUNCTIONS, ours.functions.shape[1], theirs.functions.shape[1])
+    here, there = (ours.distance(k), theirs.distance(k)) if distances is None else distances
+    samples = ours.samples(count)
+    problem = Problem(here, SurfacePoints.at_vertices(source.mesh, samples), there)
+    start = SurfacePoints.at_vertices(target.mesh, hypothesis.images[samples])
+    solution = solve(problem, start, loss, max_iterations=ITERATIONS)
+    points = extend(ours, theirs, samples, solution.points, k)
+    images = points.nearest_vertices()
+    weighed = evidence(source, target, hypothesis.views, samples, images)
+    return replace(hypothesis, images=images, points=points, solution=solution, evidence=weighed)
+
+
+def _gap(one: Hypothesis, other: Hypothesis) -> float:
+    """Mean distance between the images of two maps, over the mean distance from the centre."""
+    e = one.views[1].embedding
+    return float(np.linalg.norm(e[one.images] - e[other.images], axis=1).mean() / np.linalg.norm(e, axis=1).mean())

@@ -1,0 +1,76 @@
+"""Which of several maps to believe: four ways to be wrong, taken together as one likelihood."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gmds.orientation import vertex_map_orientation
+from gmds.surface import Surface, View
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+FUNCTIONS = 40
+LEAST = 1e-6  # residuals below this are rounding
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What speaks for a map.
+
+    `stress`: mean |d_S - d_Q| between samples over mean d_S; `bend`: correlation of squashed mean curvature, which
+    knows the chest from the back; `orientation`: signed share of the area that keeps its orientation; `energy`:
+    Dirichlet energy of the map over that of the identity, which knows torn maps from whole ones.
+    """
+
+    stress: float
+    bend: float
+    orientation: float
+    energy: float
+
+    def loss(self, sense: int) -> float:
+        """Minus the log-likelihood up to a constant, with the spread of each residual at its best value.
+
+        A Gaussian residual of spread s contributes log s: the relative misfit of distances, the unexplained part of
+        the curvature sqrt(1 - r^2), the share of the area turned over, and the stretch sqrt(energy). `sense` is 1
+        when orientation is to be kept, -1 when it is to be reversed, 0 when either will do.
+        """
+        orientation = abs(self.orientation) if sense == 0 else sense * self.orientation
+        unexplained = np.sqrt(1 - max(self.bend, 0.0) ** 2)
+        spreads = (self.stress, unexplained, 1 - orientation, np.sqrt(self.energy))
+        return float(sum(np.log(max(spread, LEAST)) for spread in spreads))
+
+
+def evidence(source: Surface, target: Surface, views: tuple[View, View], samples: Index, images: Index) -> Evidence:
+    """What speaks for a map (n,) to target vertices, with distances measured in `views` between the `samples`."""
+    ours, theirs = (view.distance(min(FUNCTIONS, view.functions.shape[1])).embedding for view in views)
+    here, there = _distances(ours[samples]), _distances(theirs[images[samples]])
+    used = source.regular.usable
+    return Evidence(
+        stress=float(np.abs(here - there).mean() / here.mean()),
+        bend=_correlation(source.bend[used], target.bend[images[used]], source.areas[used]),
+        orientation=vertex_map_orientation(source.mesh, target.mesh, images),
+        energy=_edge_energy(source, theirs[images]) / _edge_energy(source, ours),
+    )
+
+
+def _edge_energy(source: Surface, rows: Array) -> float:
+    a, b = source.mesh.faces, np.roll(source.mesh.faces, -1, axis=1)
+    difference = rows[a.ravel()] - rows[b.ravel()]
+    return float(np.einsum("ek,ek->", difference, difference))
+
+
+def _correlation(x: Array, y: Array, weights: Array) -> float:
+    """Weighted correlation; 0 where either is constant."""
+    w = weights / weights.sum()
+    x, y = x - w @ x, y - w @ y
+    size = np.sqrt((w @ x**2) * (w @ y**2))
+    return float(w @ (x * y) / size) if size > 0 else 0.0
+
+
+def _distances(rows: Array) -> Array:
+    norm = np.einsum("ik,ik->i", rows, rows)
+    return np.sqrt(np.maximum(norm[:, None] + norm - 2 * rows @ rows.T, 0))

@@ -1,0 +1,78 @@
+"""The metric of the target in which a map keeps area: parts that grew are shrunk back before they are compared.
+
+Two surfaces whose parts differ in scale are related by a map that is nearly conformal. In the metric rho g of the
+target, with rho the area of the source that the map brings per area of the target, the map is nearly an isometry, and
+distances can be compared as if nothing had grown. The scale-invariant metric needs no map to start from, but measures
+curvature; this one needs a rough map, and measures areas only. Both are conformal to g, so stiffness is shared.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+import scipy.sparse as sp
+import scipy.sparse.linalg as sla
+from numpy.typing import NDArray
+
+from geodesics import Spectrum, embedded, stiffness
+from gmds.surface import Surface, View
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+LARGEST_FACTOR = 100.0
+
+
+@dataclass(frozen=True, eq=False)
+class ConformalClass:
+    """Metrics rho g of one surface, measured in the span of eigenfunctions it already has (Rayleigh-Ritz).
+
+    `times`: the heat times, in units of the area, with which densities may be smoothed.
+    """
+
+    surface: Surface
+    times: tuple[float, ...]
+
+    @functools.cached_property
+    def basis(self) -> Array:
+        """Functions (n, q) orthonormal in area: the span of the eigenfunctions in both metrics."""
+        surface = self.surface
+        raw = np.hstack([surface.regular.functions, surface.scale_invariant.functions[:, 1:]])
+        gram = raw.T @ (surface.areas[:, None] * raw)
+        values, vectors = np.linalg.eigh(gram)
+        kept = values > 1e-4
+        return raw @ (vectors[:, kept] / np.sqrt(values[kept]))
+
+    @functools.cached_property
+    def energy(self) -> Array:
+        """Dirichlet energy (q, q) of the basis, the same in every conformal metric."""
+        return self.basis.T @ (stiffness(embedded(self.surface.mesh)) @ self.basis)
+
+    def view(self, factor: Array, count: int) -> View:
+        """The surface in the metric factor * g, factor (n,), with `count` eigenfunctions."""
+        mass = factor * self.surface.areas
+        mass /= mass.sum()
+        gram = self.basis.T @ (mass[:, None] * self.basis)
+        values, vectors = scipy.linalg.eigh(self.energy, gram, subset_by_index=(0, min(count, len(gram)) - 1))
+        functions = self.basis @ vectors
+        return View(self.surface.mesh, Spectrum(self.surface.mesh, mass, np.maximum(values, 0), functions))
+
+    @functools.cached_property
+    def _smoothers(self) -> dict[float, Callable[[Array], Array]]:
+        """One implicit heat step for each of the times."""
+        used = self.surface.regular.usable
+        mass = sp.diags(self.surface.areas[used])
+        weights = stiffness(embedded(self.surface.mesh))[used][:, used]
+        return {time: sla.splu((mass + time * weights).tocsc()).solve for time in self.times}
+
+    def density(self, amounts: Array, time: float) -> Array:
+        """Amounts (n,) per area (n,), both smoothed by one implicit heat step of `time`, one of `times`."""
+        used, solve = self.surface.regular.usable, self._smoothers[time]
+        ratio = solve(amounts[used]) / solve(self.surface.areas[used])
+        factor = np.ones(len(amounts))
+        factor[used] = np.clip(ratio, 1 / LARGEST_FACTOR, LARGEST_FACTOR)
+        return factor

@@ -1,0 +1,42 @@
+"""From placed samples to every vertex, anywhere on the triangles."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics import SurfacePoints
+from gmds._kernels.closest import closest_on_faces
+from gmds.functional_maps import functional_map, nearest_rows
+from gmds.surface import View
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+ROUNDS = 8  # looks from vertex to vertex for the closest point
+
+
+def extend(source: View, target: View, samples: Index, placed: SurfacePoints, count: int) -> SurfacePoints:
+    """The points of the target, one for each source vertex, that continue samples (p,) placed at p points.
+
+    A functional map of `count` eigenfunctions is fitted to the placed samples; each vertex then goes to the closest
+    point of the target's surface in the space of eigenfunctions, inside a triangle if need be. In commute-time
+    coordinates this is trilateration: the point whose distances to the placed samples are right.
+    """
+    k = min(count, source.functions.shape[1], target.functions.shape[1])
+    ours, theirs = source.functions[:, :k], target.functions[:, :k]
+    matrix = functional_map(ours[samples], placed.interpolate(theirs))
+    return closest_points(target, theirs @ matrix.T, ours)
+
+
+def closest_points(target: View, rows: Array, queries: Array) -> SurfacePoints:
+    """Points of the target's surface, embedded by `rows` (n, k) linear on faces, closest to `queries` (p, k)."""
+    usable = target.usable
+    guess = usable[nearest_rows(queries, rows[usable])]
+    faces = target.mesh.faces
+    ring = np.argsort(faces.ravel(), kind="stable") // 3
+    start = np.concatenate([[0], np.cumsum(np.bincount(faces.ravel(), minlength=target.mesh.n_vertices))])
+    face, weight, _ = closest_on_faces(
+        np.ascontiguousarray(queries), np.ascontiguousarray(rows), faces, ring, start, guess, ROUNDS
+    )
+    return SurfacePoints(target.mesh, face, weight)

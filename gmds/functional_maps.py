@@ -1,0 +1,49 @@
+"""Functional maps: a map of points as a small matrix between eigenfunctions, and back."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+_BLOCK = 1 << 23  # entries of a distance matrix held at a time
+
+
+def functional_map(source_rows: Array, target_rows: Array) -> Array:
+    """The matrix C (k, l) with source_rows C = target_rows in the least-squares sense (Ovsjanikov et al. 2012).
+
+    Rows are eigenfunctions at corresponding points, (p, k) of the source and (p, l) of the target: column j of C writes
+    target function j, pulled back by the map, in source functions. A source point with row x then corresponds to the
+    target point whose row y makes C y nearest to x; the other way round would want C orthogonal.
+    """
+    return np.linalg.lstsq(source_rows, target_rows, rcond=None)[0]
+
+
+def nearest_rows(queries: Array, rows: Array) -> Index:
+    """For each query (p, k) the index of the nearest row (n, k), by blocked matrix products in single precision."""
+    q, r = queries.astype(np.float32), rows.astype(np.float32)
+    half, transposed = 0.5 * np.einsum("ik,ik->i", r, r), np.ascontiguousarray(r.T)
+    result = np.empty(len(q), dtype=np.int64)
+    step = max(1, _BLOCK // len(r))
+    for start in range(0, len(q), step):
+        here = slice(start, start + step)
+        result[here] = (half - q[here] @ transposed).argmin(axis=1)
+    return result
+
+
+def spectral_upsampling(
+    source_rows: Array, target_rows: Array, images: Index, sizes: Iterable[int]
+) -> tuple[Array, Index]:
+    """Refine the images (p,) of p points with ever more eigenfunctions (ZoomOut; Melzi et al. 2019).
+
+    `source_rows` (p, k) are eigenfunctions at the points, `target_rows` (n, k) at everything they may be sent to.
+    Returns the last functional map and the images it gives.
+    """
+    matrix = np.empty((0, 0))
+    for k in sizes:
+        matrix = functional_map(source_rows[:, :k], target_rows[images, :k])
+        images = nearest_rows(source_rows[:, :k], target_rows[:, :k] @ matrix.T)
+    return matrix, images

@@ -1,0 +1,32 @@
+"""From many starts to the few distinct sample maps that distort distances least."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gmds.upsampling import COARSE, SampledPair
+
+Index = NDArray[np.int64]
+
+TRIED = 64  # starts that are refined to the end
+DISTINCT = 0.12  # of the mean distance: how far apart two maps must be to count as two
+EARLY = 3  # steps of refinement before the rest is dropped
+
+
+def hypotheses(pair: SampledPair, starts: Sequence[Callable[[SampledPair], list[Index]]], count: int) -> list[Index]:
+    """At most `count` dense maps (n,) to target vertices, all apart from each other, those of least stress first."""
+    begun = [pair.refined(images, COARSE[:EARLY]) for start in starts for images in start(pair)]
+    begun = [begun[i] for i in _by_stress(pair, begun)[:TRIED]]
+    done = [pair.refined(images, COARSE[EARLY:]) for images in begun]
+    kept: list[Index] = []
+    for i in _by_stress(pair, done):
+        if len(kept) < count and all(pair.gap(done[i], other) > DISTINCT for other in kept):
+            kept.append(done[i])
+    return [pair.dense(images) for images in kept]
+
+
+def _by_stress(pair: SampledPair, maps: list[Index]) -> Index:
+    return np.argsort([pair.stress(images) for images in maps], kind="stable")

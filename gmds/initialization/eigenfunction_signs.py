@@ -1,0 +1,47 @@
+"""Starts from eigenfunctions: alike up to sign and order on near-isometric surfaces."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gmds.upsampling import SampledPair
+
+Index = NDArray[np.int64]
+
+FUNCTIONS = 5  # whose signs are tried
+CLOSE = 0.25  # relative gap below which two eigenvalues may have changed places
+MOST_ORDERS = 4
+
+
+def eigenfunction_signs(pair: SampledPair) -> list[Index]:
+    """One sample map for every choice of signs of the first five eigenfunctions, and of order where they are close.
+
+    The functional map of an isometry is a signed permutation where eigenvalues are simple (Mateus et al. 2008).
+    """
+    count = min(FUNCTIONS, pair.source_rows.shape[1] - 1, pair.target_rows.shape[1] - 1)
+    if count < FUNCTIONS:
+        return []
+    starts = []
+    for order in _orders(pair, count):
+        for signs in itertools.product((1.0, -1.0), repeat=count):
+            matrix = np.zeros((count + 1, count + 1))
+            matrix[0, 0] = np.sign(pair.source_rows[0, 0] * pair.target_rows[0, 0])
+            matrix[np.arange(1, count + 1), np.array(order) + 1] = signs
+            starts.append(pair.images(matrix))
+    return starts
+
+
+def _orders(pair: SampledPair, count: int) -> list[list[int]]:
+    """The identity, and neighbours exchanged where eigenvalues of either surface are close: at most four orders."""
+    orders = [list(range(count))]
+    for i in range(count - 1):
+        values = np.stack([pair.source.eigenvalues[i + 1 : i + 3], pair.target.eigenvalues[i + 1 : i + 3]])
+        if ((values[:, 1] - values[:, 0]) < CLOSE * values[:, 1]).any():
+            for order in list(orders)[: MOST_ORDERS - len(orders)]:
+                swapped = order.copy()
+                swapped[i], swapped[i + 1] = swapped[i + 1], swapped[i]
+                orders.append(swapped)
+    return orders

@@ -1,0 +1,75 @@
+"""Starts from extremities: heads, hands and tails are far from everything else on any member of a class."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gmds.functional_maps import nearest_rows
+from gmds.surface import View
+from gmds.upsampling import SampledPair
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+MOST = 7  # extremities of a surface: 7! assignments are still quick to score
+BEST = 32  # assignments kept
+RINGS = 3  # around a local maximum
+APART = 0.3  # of the largest distance from the centre
+
+
+def extremities(pair: SampledPair) -> list[Index]:
+    """Sample maps by trilateration from assigned extremities, for the 32 assignments that distort distances least."""
+    ours, theirs = surface_extremities(pair.source), surface_extremities(pair.target)
+    if min(len(ours), len(theirs)) < 3:
+        return []
+    here = _between(pair.source.embedding[ours], pair.source.embedding[ours])
+    there = _between(pair.target.embedding[theirs], pair.target.embedding[theirs])
+    if len(ours) <= len(theirs):
+        assigned = [(ours, theirs[list(a)]) for a in _assignments(here, there)]
+    else:
+        assigned = [(ours[list(a)], theirs) for a in _assignments(there, here)]
+    return [trilaterated(pair, *both) for both in assigned]
+
+
+def trilaterated(pair: SampledPair, ours: Index, theirs: Index) -> Index:
+    """Each sample goes where its distances to the vertices `ours` (l,) are those to `theirs` (l,) on the target."""
+    queries = _between(pair.source.embedding[pair.source_samples], pair.source.embedding[ours])
+    rows = _between(pair.target.embedding[pair.target_samples], pair.target.embedding[theirs])
+    return nearest_rows(queries, rows)
+
+
+def surface_extremities(view: View) -> Index:
+    """Vertices farther from all others, in mean squared commute-time distance, than those around them; at most seven.
+
+    As the embedding is centred, the mean squared distance from x is |e(x)|^2 and a constant.
+    """
+    far = (view.embedding**2).sum(axis=1)
+    highest, faces = far.copy(), view.mesh.faces
+    for _ in range(RINGS):
+        around = highest[faces].max(axis=1)
+        for k in range(3):
+            np.maximum.at(highest, faces[:, k], around)
+    peaks = view.usable[far[view.usable] >= highest[view.usable]]
+    peaks = peaks[np.argsort(-far[peaks], kind="stable")]
+    kept: list[int] = []
+    for peak in peaks:
+        gaps = np.linalg.norm(view.embedding[kept] - view.embedding[peak], axis=1)
+        if (gaps > APART * np.sqrt(far[peaks[0]])).all():
+            kept.append(int(peak))
+    return np.array(kept[:MOST], dtype=np.int64)
+
+
+def _assignments(few: Array, many: Array) -> Index:
+    """The 32 injective assignments (32, l) of l points to more whose mutual distances agree best."""
+    all_of_them = np.array(list(itertools.permutations(range(len(many)), len(few))))
+    i, j = np.triu_indices(len(few), 1)
+    misfit = np.abs(few[i, j] - many[all_of_them[:, i], all_of_them[:, j]]).mean(axis=1)
+    return all_of_them[np.argsort(misfit, kind="stable")[:BEST]]
+
+
+def _between(rows: Array, others: Array) -> Array:
+    """Distances (p, q) between two sets of vectors."""
+    return np.linalg.norm(rows[:, None] - others[None], axis=2)

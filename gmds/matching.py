@@ -1,0 +1,83 @@
+"""match(): the front door. A composition that anyone can copy and change; the arithmetic lives elsewhere."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Any, Literal
+
+from geodesics import Mesh
+from gmds import initialization
+from gmds._validation import check_landmarks, check_sample_count, suggest_keywords
+from gmds.answer import answer
+from gmds.candidates import distinct, embed, proposals, proposals_in
+from gmds.correspondence import Correspondence
+from gmds.initialization.landmarks import landmarks as from_landmarks
+from gmds.losses import LeastSquares, Loss
+from gmds.pairwise import Distance
+from gmds.surface import measure, view_of
+
+SAMPLES = 300
+EMBEDDED = 3  # maps whose samples are placed by the solver
+SENSE = {"preserve": 1, "reverse": -1, "any": 0}
+
+
+@suggest_keywords
+def match(
+    source: Mesh,
+    target: Mesh,
+    *,
+    distance: Callable[[Mesh], Distance] | None = None,
+    loss: Loss | None = None,
+    n_samples: int | None = None,
+    landmarks: Any = None,
+    orientation: Literal["preserve", "reverse", "any"] = "preserve",
+    rng: int = 0,
+    progress: Callable[[str, float], None] | None = None,
+) -> Correspondence:
+    """For every vertex of `source` the point of `target` it corresponds to, by generalised multidimensional scaling.
+
+    Sec. 5: many starts are refined in the scale-invariant metric (2.1) and in the metric of space, and then in the
+    metric of the target in which the map keeps area; for the most promising maps `n_samples` farthest points (300) are
+    embedded in the target by `solve` with `loss` (least squares), anywhere on its triangles, and extended to every
+    vertex; the one that best keeps distances, curvature and orientation is the answer. With `distance`, a function
+    Mesh -> Distance that is called on each surface brought to unit area, starts and embedding use that alone.
+
+    `landmarks` are known correspondences, see `gmds.landmarks.check_landmarks`. `rng` seeds whatever is random; in the
+    method as it stands nothing is. `progress(stage, fraction)` is called as work goes on. Raises `MeshError`,
+    `LandmarkError` (E300-E305), `SampleCountError` (E401), `SolverError` (E403).
+    """
+    if orientation not in SENSE:
+        raise ValueError(f"orientation must be 'preserve', 'reverse' or 'any', not {orientation!r}")
+    source, target = Mesh.from_object(source), Mesh.from_object(target)
+    sense, loss = SENSE[orientation], LeastSquares() if loss is None else loss
+    known = None if landmarks is None else check_landmarks(landmarks, source, target)
+    report = progress or (lambda stage, fraction: None)
+    started = time.perf_counter()
+
+    report("measuring", 0.0)
+    ours, theirs = measure(source), measure(target)
+    count = SAMPLES if n_samples is None else check_sample_count(n_samples, source)
+    starts = list(initialization.ALL)
+    if known is not None:
+        starts = [from_landmarks(*(points.nearest_vertices() for points in known))]
+    if distance is None:
+        given, found = None, proposals(ours, theirs, starts)
+    else:
+        given = distance(ours.mesh), distance(theirs.mesh)
+        views = view_of(given[0], ours), view_of(given[1], theirs)
+        found = proposals_in(ours, theirs, views, starts)
+    best = []
+    for i, hypothesis in enumerate(found):
+        report("refining", 0.1 + 0.6 * min(i / 16, 1))
+        best = distinct([*best, hypothesis], EMBEDDED, sense)
+    placed = []
+    for i, hypothesis in enumerate(best):
+        report("embedding", 0.7 + 0.25 * i / len(best))
+        placed.append(embed(ours, theirs, hypothesis, loss, count, given))
+    placed.sort(key=lambda h: h.evidence.loss(sense))
+
+    settings = {"n_samples": count, "loss": repr(loss), "orientation": orientation, "rng": rng}
+    seconds = round(time.perf_counter() - started, 3)
+    report("done", 1.0)
+    return answer(ours, theirs, placed, sense, {"parameters": settings, "seconds": seconds})

@@ -1,0 +1,62 @@
+"""Which of two mirrored answers: what changes sign under a reflection, and nothing else does."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics import Mesh
+from geodesics.curvature import vertex_normals
+from gmds.surface import View
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+FUNCTIONS = 5  # first eigenfunctions, without the constant, whose forms are compared
+_PAIRS = np.array(list(itertools.combinations(range(FUNCTIONS), 2)))
+
+
+def orientation_score(source: Mesh, target: Mesh, images: Array, normals: Array) -> float:
+    """Signed share in [-1, 1] of the image of a map whose triangles keep their orientation.
+
+    `images` (n, 3) are the positions of the source vertices on the target, `normals` (n, 3) the target's there.
+    Every source triangle is pushed through the map; its area counts with the cosine between its normal and the
+    target's.
+    """
+    a, b, c = source.faces.T
+    area = np.cross(images[b] - images[a], images[c] - images[a])
+    normal = normals[a] + normals[b] + normals[c]
+    normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), np.finfo(float).tiny)
+    total = np.linalg.norm(area, axis=1).sum()
+    return float((area * normal).sum() / total) if total > 0 else 0.0
+
+
+def vertex_map_orientation(source: Mesh, target: Mesh, images: Index) -> float:
+    """The orientation score of a map to target vertices, `images` (n,)."""
+    return orientation_score(source, target, target.vertices[images], vertex_normals(target)[images])
+
+
+def orientation_forms(view: View, points: Index) -> Array:
+    """The 2-forms d phi_i ^ d phi_j, 1 <= i < j <= 5, per area of the metric, at vertices `points`: (p, 10).
+
+    They do not depend on the metric but for the area, keep their value under a map that preserves orientation, and
+    change their sign under one that reverses it.
+    """
+    corner = view.functions[:, 1 : FUNCTIONS + 1][view.mesh.faces]
+    first, second = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
+    i, j = _PAIRS.T
+    wedge = 0.5 * (first[:, i] * second[:, j] - first[:, j] * second[:, i])  # integral over each face
+    total = np.zeros((view.mesh.n_vertices, len(_PAIRS)))
+    for k in range(3):
+        np.add.at(total, view.mesh.faces[:, k], wedge / 3)
+    return total[points] / view.spectrum.mass[points, None]
+
+
+def pulled_back_forms(forms: Array, matrix: Array) -> Array:
+    """Forms (p, 10) of the target's functions as those of the source's, by the functional map C (k, k), k > 5."""
+    inner = matrix[1 : FUNCTIONS + 1, 1 : FUNCTIONS + 1]
+    i, j = _PAIRS.T
+    minors = inner[np.ix_(i, i)] * inner[np.ix_(j, j)] - inner[np.ix_(i, j)] * inner[np.ix_(j, i)]
+    return forms @ minors.T

@@ -1,0 +1,160 @@
+"""A surface measured once for matching: brought to unit area, then seen in one or more metrics."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics import (
+    CommuteTimeDistance,
+    Mesh,
+    Metric,
+    Spectrum,
+    eigenpairs,
+    embedded,
+    farthest_point_sampling,
+    scale_invariant,
+)
+from geodesics.curvature import mean_curvature
+from geodesics.errors import MeshError
+from geodesics.intrinsic import areas, squared_lengths
+from geodesics.orientation import orient_faces
+from geodesics.topology import vertex_components
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+FEWEST_VERTICES = 12  # below this there are not enough eigenfunctions to start from
+EIGENFUNCTIONS = 100
+ENOUGH_EIGENFUNCTIONS = 30
+SAMPLING_FUNCTIONS = 20  # of a commute-time distance, for choosing samples: the rest does not move them much
+
+
+class TooFewVertices(MeshError):
+    """The largest part of a mesh is too small to be matched."""
+
+    code = "E113"
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """A surface seen in one metric, scaled to unit area: eigenvalues (k,) and eigenfunctions (n, k), sec. 4.
+
+    Vertices that do not belong to the surface have mass 0 and functions 0.
+    """
+
+    mesh: Mesh
+    spectrum: Spectrum
+
+    @classmethod
+    def of(cls, spectrum: Spectrum) -> View:
+        """The view of a spectrum, whatever the area of its metric."""
+        area = spectrum.mass.sum()
+        values, functions = spectrum.eigenvalues * area, spectrum.eigenfunctions * np.sqrt(area)
+        return cls(spectrum.mesh, Spectrum(spectrum.mesh, spectrum.mass / area, values, functions))
+
+    @property
+    def functions(self) -> Array:
+        """Eigenfunctions (n, k), the first constant."""
+        return self.spectrum.eigenfunctions
+
+    @property
+    def eigenvalues(self) -> Array:
+        """Eigenvalues (k,), ascending from 0, of the metric of unit area."""
+        return self.spectrum.eigenvalues
+
+    @functools.cached_property
+    def usable(self) -> Index:
+        """Vertices that belong to the surface."""
+        return np.flatnonzero(self.spectrum.mass > 0)
+
+    def distance(self, count: int) -> CommuteTimeDistance:
+        """The commute-time distance (3.2) by the first `count` eigenfunctions."""
+        spectrum = self.spectrum
+        kept = slice(0, count)
+        return CommuteTimeDistance(
+            Spectrum(self.mesh, spectrum.mass, spectrum.eigenvalues[kept], spectrum.eigenfunctions[:, kept])
+        )
+
+    @functools.cached_property
+    def embedding(self) -> Array:
+        """The embedding (n, k - 1) whose Euclidean distances are commute-time distances (3.2)."""
+        return self.distance(len(self.eigenvalues)).embedding
+
+    def samples(self, count: int) -> Index:
+        """Farthest points (at most `count`) in commute-time distance, from the point farthest from all others."""
+        distance = self.distance(SAMPLING_FUNCTIONS)
+        first = int((distance.embedding**2).sum(axis=1).argmax())
+        return farthest_point_sampling(distance, min(count, len(self.usable)), first)
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """The largest part of a mesh, with all vertices kept, brought to unit area and oriented.
+
+    `mesh` has the vertices of `original`, moved and scaled, and the faces `face_index` of it.
+    """
+
+    original: Mesh
+    mesh: Mesh
+    face_index: Index
+
+    def view(self, metric: Callable[[Mesh], Metric]) -> View:
+        """The surface in a metric."""
+        return View.of(eigenpairs(metric(self.mesh), self.count))
+
+    @functools.cached_property
+    def scale_invariant(self) -> View:
+        """The surface in the scale-invariant metric (2.1)."""
+        return self.view(scale_invariant)
+
+    @functools.cached_property
+    def regular(self) -> View:
+        """The surface in the metric of space."""
+        return self.view(embedded)
+
+    @functools.cached_property
+    def count(self) -> int:
+        """Number of eigenfunctions in each view."""
+        return min(EIGENFUNCTIONS, len(np.unique(self.mesh.faces)) - 1)
+
+    @functools.cached_property
+    def areas(self) -> Array:
+        """Area (n,) around each vertex."""
+        return self.regular.spectrum.mass
+
+    @functools.cached_property
+    def bend(self) -> Array:
+        """Mean curvature (n,), squashed to [-1, 1] so that finger tips do not outvote the rest."""
+        curvature = mean_curvature(self.mesh)
+        typical = np.median(np.abs(curvature[self.regular.usable]))
+        return np.tanh(curvature / typical) if typical > 0 else np.zeros_like(curvature)
+
+
+def measure(mesh: Mesh) -> Surface:
+    """The largest part of `mesh`, ready for matching. Raises `TooFewVertices` (E113)."""
+    label = vertex_components(mesh)
+    of_face = label[mesh.faces[:, 0]]
+    size = np.bincount(of_face, areas(squared_lengths(mesh.vertices, mesh.faces)))
+    kept = np.flatnonzero(of_face == size.argmax())
+    used = np.flatnonzero(label == size.argmax())
+    if len(used) < FEWEST_VERTICES:
+        raise TooFewVertices(
+            f"the largest part of {mesh!r} has {len(used)} vertices; matching needs {FEWEST_VERTICES}; refine the mesh"
+        )
+    shift = mesh.vertices[used].mean(axis=0)
+    unit = orient_faces(Mesh((mesh.vertices - shift) / np.sqrt(size.max()), mesh.faces[kept]))
+    return Surface(mesh, unit, kept)
+
+
+def view_of(distance: object, surface: Surface) -> View:
+    """The surface in the metric that a distance measures in; in the metric of space when it does not say."""
+    spectrum = getattr(distance, "spectrum", None)
+    if isinstance(spectrum, Spectrum) and len(spectrum.eigenvalues) >= min(ENOUGH_EIGENFUNCTIONS, surface.count):
+        return View.of(spectrum)
+    metric = getattr(distance, "metric", None)
+    return surface.view(lambda mesh: metric) if isinstance(metric, Metric) else surface.regular
