@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geodesics.tracing import turned_over, walk
+from gmds.jacobian import Jacobian
 from gmds.losses import Loss
 from gmds.problem import Placement, mixed
 from gmds.status import Status
@@ -18,6 +19,8 @@ SHORTEST, LONGEST = 1e-6, 0.5
 """Bounds of the trust region, in mean distances."""
 WALLED = 0.02
 """First trust region of a walled descent, in mean distances."""
+CERTIFIED = 0.01
+"""The smallest trust region, in mean distances, in which a walled descent says that nothing is left to gain."""
 SIDES = 6
 """How many times in a row points on edges are turned over before nothing is left to gain."""
 
@@ -54,15 +57,15 @@ def descend(
         jacobian = here.walled_jacobian if walled else here.jacobian
         if stress <= negligible:
             return Descent(here, stress, radius, iteration, 0.0, Status.CONVERGED)
-        step = loss.step(jacobian, here.residuals, radius)
-        foretold = stress - loss.value(here.residuals + jacobian.apply(step))
+        step, foretold = _foretold(here, stress, jacobian, loss, radius)
         if not np.isfinite(foretold):
             return Descent(here, stress, radius, iteration, np.inf, Status.STALLED)
         if foretold <= tolerance * stress:
-            quiet.append(max(foretold, 0.0))
+            wide = max(radius, CERTIFIED) if walled else radius
+            quiet.append(max(foretold, _foretold(here, stress, jacobian, loss, wide)[1] if wide > radius else 0.0))
             other, turned = turned_over(here.points)
             if not walled or not turned.any() or len(quiet) >= SIDES:
-                return Descent(here, stress, radius, iteration, max(quiet), Status.CONVERGED)
+                return Descent(here, stress, wide, iteration, max(quiet), Status.CONVERGED)
             here = here.problem.at(other)
             continue
         quiet = []
@@ -74,6 +77,12 @@ def descend(
             return Descent(here, stress, radius, iteration, foretold, Status.STALLED)
         report(iteration)
     return Descent(here, stress, radius, max_iterations, np.inf, Status.ITERATION_LIMIT)
+
+
+def _foretold(here: Placement, stress: float, jacobian: Jacobian, loss: Loss, radius: float) -> tuple[Array, float]:
+    """The step of the loss, and by how much it lowers the stress of the linearised problem."""
+    step = loss.step(jacobian, here.residuals, radius)
+    return step, stress - loss.value(here.residuals + jacobian.apply(step))
 
 
 def _tried(

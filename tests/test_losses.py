@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -89,19 +91,34 @@ def test_minimax_step_is_the_linear_program_over_all_rows(radius: float) -> None
     assert Minimax().value(r + jacobian.apply(step)) == pytest.approx(whole.fun, abs=2e-3 * radius)
 
 
-def test_minimax_step_respects_walls() -> None:
+@pytest.mark.parametrize("loss", LOSSES, ids=repr)
+def test_steps_respect_walls(loss: Loss) -> None:
     jacobian, r = linear_problem(10)
-    weight = np.random.default_rng(1).dirichlet([1, 1, 1], 10)
+    rng = np.random.default_rng(2)
+    weight = rng.dirichlet([1, 1, 1], 10)
     weight[:4, 0] = 0
-    slope = np.random.default_rng(2).normal(size=(10, 3, 2))
+    weight[:2, 1] = 0
+    slope = rng.normal(size=(10, 3, 2))
     slope -= slope.mean(axis=1, keepdims=True)
-    inside = Jacobian(jacobian.first, jacobian.second, jacobian.blocks, jacobian.frames, (weight, slope))
-    free, held = Minimax().step(jacobian, r, 0.5), Minimax().step(inside, r, 0.5)
-    after = weight + np.einsum("pkx,px->pk", slope, held)
-    assert after.min() > -1e-7
+    inside = replace(jacobian, walls=(weight, slope))
+    free, held = loss.step(jacobian, r, 0.5), loss.step(inside, r, 0.5)
+    assert (weight + np.einsum("pkx,px->pk", slope, held)).min() > -1e-7
     assert (weight + np.einsum("pkx,px->pk", slope, free)).min() < -0.1
-    values = [Minimax().value(r + jacobian.apply(step)) for step in (free, held, 0 * held)]
+    values = [loss.value(r + jacobian.apply(step)) for step in (free, held, 0 * held)]
     assert values[0] < values[1] < values[2]
+
+
+def test_a_point_at_a_wall_slides_along_it() -> None:
+    """Least squares at a wall is least squares along the wall."""
+    jacobian, r = linear_problem(10)
+    dense = jacobian.rows(np.arange(len(r))).toarray()
+    push = LeastSquares().step(jacobian, r, 1e6)[0]
+    weight, slope = np.full((10, 3), 1 / 3), np.zeros((10, 3, 2))
+    weight[0, 0], slope[0, 0] = 0, [-1, 0] if push[0] > 0 else [1, 0]
+    step = LeastSquares().step(replace(jacobian, walls=(weight, slope)), r, 1e6)
+    assert abs(step[0, 0]) < 1e-12 < abs(step[0, 1])
+    best = np.linalg.lstsq(dense[:, 1:], -r, rcond=None)[0]
+    assert LeastSquares().value(r + jacobian.apply(step)) < 1.001 * np.mean((r + dense[:, 1:] @ best) ** 2)
 
 
 def test_minimax_leaves_points_alone_that_can_not_help() -> None:

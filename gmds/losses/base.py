@@ -46,26 +46,70 @@ class SmoothLoss(ABC):
         """Gauss-Newton step (p, 2) in the ball whose root-mean-square step a point is `radius`,
         no point going farther than twice that.
 
+        Where the Jacobian has walls, points that push against one keep to it, and none goes through.
         Minimises slope . J y + 1/2 sum of curvature (J y)^2 by conjugate gradients stopped at the ball (Steihaug 1983).
         """
-        step = truncated_newton(jacobian, self.slope(residuals), self.curvature(residuals), radius)
+        ways = np.broadcast_to(np.eye(2), (jacobian.n_points, 2, 2))
+        for _ in range(4):
+            step = truncated_newton(jacobian, self.slope(residuals), self.curvature(residuals), radius, ways)
+            held = _held(jacobian, step, ways)
+            if held is None:
+                break
+            ways = held
         length = np.linalg.norm(step, axis=1, keepdims=True)
-        return step * (2 * radius / np.maximum(length, 2 * radius))
+        return _inside(jacobian, step * (2 * radius / np.maximum(length, 2 * radius)))
 
 
-def truncated_newton(
-    jacobian: Jacobian, slope: Array, curvature: Array, radius: float, accuracy: float = 0.02, max_iterations: int = 60
-) -> Array:
-    """Conjugate gradients for J^T C J y = -J^T slope, stopped where they leave the ball |y| = radius sqrt(p)."""
+def _held(jacobian: Jacobian, step: Array, ways: Array) -> Array | None:
+    """The projections (p, 2, 2) on the ways left to points that stand at a wall and push against it, None if none do.
+
+    One wall leaves the way along it, two leave none.
+    """
+    if jacobian.walls is None:
+        return None
+    weight, slope = jacobian.walls
+    pushing = (weight <= 1e-9) & (np.einsum("pkx,px->pk", slope, step) < -1e-12)
+    movable = np.abs(ways).sum(axis=(1, 2)) > 0
+    point, corner = np.nonzero(pushing & movable[:, None])
+    if len(point) == 0:
+        return None
+    normal = slope[point, corner] / np.linalg.norm(slope[point, corner], axis=1, keepdims=True)
+    held, whole = ways.copy(), np.eye(2)
+    for i, n in zip(point, normal, strict=True):
+        held[i] = whole - np.outer(n, n) if (held[i] == whole).all() else 0.0
+    return held
+
+
+def _inside(jacobian: Jacobian, step: Array) -> Array:
+    """The step (p, 2), shortened for each point so that it ends at the first wall."""
+    if jacobian.walls is None:
+        return step
+    weight, slope = jacobian.walls
+    fall = -np.einsum("pkx,px->pk", slope, step)
+    share = np.min(
+        weight / np.maximum(fall, np.maximum(weight, np.finfo(float).tiny)),
+        axis=1,
+        keepdims=True,
+        where=fall > 1e-12,
+        initial=1.0,
+    )
+    return step * share
+
+
+def truncated_newton(jacobian: Jacobian, slope: Array, curvature: Array, radius: float, ways: Array) -> Array:
+    """Conjugate gradients for J^T C J y = -J^T slope, stopped where they leave the ball |y| = radius sqrt(p).
+
+    Each point moves within the range of its projection `ways` (p, 2, 2) only. Ends at a residual of 2 % of the first.
+    """
     y = np.zeros((jacobian.n_points, 2))
-    rest = -jacobian.transposed(slope)
+    rest = -_projected(ways, jacobian.transposed(slope))
     direction = rest
     square = first_square = float((rest * rest).sum())
     reach = radius * radius * jacobian.n_points
-    for _ in range(max_iterations):
-        if not square > accuracy**2 * first_square:
+    for _ in range(60):
+        if not square > 0.02**2 * first_square:
             break
-        image = jacobian.normal(curvature, direction)
+        image = _projected(ways, jacobian.normal(curvature, direction))
         bend = float((direction * image).sum())
         length = square / bend if bend > 0 else np.inf
         if bend <= 0 or float(((y + length * direction) ** 2).sum()) >= reach:
@@ -75,6 +119,11 @@ def truncated_newton(
         square, previous = float((rest * rest).sum()), square
         direction = rest + square / previous * direction
     return y
+
+
+def _projected(ways: Array, step: Array) -> Array:
+    """Each projection (p, 2, 2) times the step (p, 2) of its point."""
+    return np.einsum("pxy,py->px", ways, step)
 
 
 def _to_sphere(y: Array, direction: Array, reach: float) -> float:
