@@ -4,9 +4,23 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from shapes import bumpy_sphere, cylinder, ellipsoid, grid, icosphere, joined, moved, rectangle, torus, with_isolated
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from shapes import (
+    bumpy_sphere,
+    cylinder,
+    ellipsoid,
+    grid,
+    icosphere,
+    joined,
+    moved,
+    rectangle,
+    tetrahedron,
+    torus,
+    with_isolated,
+)
 
-from geodesics import Mesh, eigenpairs, embedded, intrinsic, scale_invariant, stiffness
+from geodesics import Mesh, MeshError, eigenpairs, embedded, intrinsic, scale_invariant, stiffness
 from geodesics.metrics import (
     ALL,
     affine,
@@ -228,3 +242,26 @@ def test_affine_metric_of_an_ellipsoid_is_that_of_the_unit_sphere():
     g = affine(ellipsoid(4, (1.0, 1.4, 2.0)), regularisation=1e-3)
     assert g.mass.sum() == pytest.approx(4 * np.pi, rel=0.05)
     np.testing.assert_allclose(eigenpairs(g, 4).eigenvalues, [0, 2, 2, 2], rtol=0.08, atol=1e-9)
+
+
+@st.composite
+def soups(draw):
+    """Any faces over a few vertices on a coarse lattice: coincident points, copies, fans of faces on one edge."""
+    n = draw(st.integers(3, 9))
+    points = draw(st.lists(st.tuples(*[st.integers(-2, 2)] * 3), min_size=n, max_size=n))
+    faces = draw(st.lists(st.tuples(*[st.integers(0, n - 1)] * 3), min_size=1, max_size=14))
+    scale = draw(st.sampled_from([1e-6, 1.0, 1e6]))
+    try:
+        return Mesh(scale * np.array(points, dtype=float), faces)
+    except MeshError:
+        return tetrahedron()
+
+
+@settings(max_examples=60, deadline=None, derandomize=True)
+@given(mesh=soups(), metric=st.sampled_from(ALL))
+def test_nothing_crashes_and_all_is_finite_on_a_soup_of_triangles(mesh, metric):
+    g = metric(mesh)
+    assert np.all(np.isfinite(g.l_sq)) and np.all(np.isfinite(g.mass)) and np.all(g.mass >= 0)
+    spectrum = eigenpairs(g, 5)
+    assert np.all(np.isfinite(spectrum.eigenvalues)) and np.all(np.isfinite(spectrum.eigenfunctions))
+    assert np.all(spectrum.eigenvalues >= 0)
