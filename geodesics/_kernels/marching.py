@@ -92,21 +92,18 @@ def _sink(heap: Integers, keys: Floats, position: Integers, size: int) -> None:
 
 
 @njit
-def _slope(arrival: float, along: float, whole: float) -> float:
-    """Derivative of the distance along an edge: -cos of the angle to the way back, 1 in the shadow of a saddle, nan
-    where it is not known."""
-    turn = abs(arrival - along)
-    if turn > 0.5 * whole:
-        turn = abs(whole - turn)
-    if not turn < HALF_GAP:
-        return math.nan
-    return -math.cos(min(turn, math.pi))
+def _turn(arrival: float, along: float, whole: float) -> float:
+    """The angle from direction `along` to `arrival`, positive anticlockwise, nan where it is not known."""
+    turn = arrival - along
+    if abs(turn) > 0.5 * whole:
+        turn -= math.copysign(whole, turn)
+    return turn if abs(turn) < HALF_GAP else math.nan
 
 
 @njit
 def _cross(ends: Pair, slopes: Pair, weights: Pair, length: float, x: float, y: float) -> Pair:
     """Distance at (x, y), y > 0, behind the edge from (0, 0) to (length, 0), and where on the edge its path crosses;
-    inf where the path misses the edge.
+    inf where the path misses the edge, or the edge is longer than a way over the source.
 
     `ends` are the distances d0, d1 at the ends of the edge, `slopes` their derivatives along it (nan: not known), and
     `weights` the cost per length of the path from either end to (x, y), near 1. The source is unfolded into the plane
@@ -117,7 +114,7 @@ def _cross(ends: Pair, slopes: Pair, weights: Pair, length: float, x: float, y: 
     xs = 0.5 * (length + (d0 - d1) * (d0 + d1) / length)
     ys = math.sqrt(max((d0 - xs) * (d0 + xs), 0.0))
     at = xs + (x - xs) * (ys / (ys + y))
-    if not 0.0 < at < length:
+    if not 0.0 < at < length or d0 + d1 < length * (1.0 - 1e-9):
         return math.inf, 0.0
     m0 = p0 + xs / d0 if d0 > 0.0 and p0 == p0 else 0.0
     m1 = p1 - (length - xs) / d1 if d1 > 0.0 and p1 == p1 else 0.0
@@ -143,8 +140,11 @@ def _through(state: Floats, shape: Floats, slow: float, q: int, side: int, v: in
     s0, s1, s2 = ratio * state[v, 4], ratio * state[a, 4], ratio * state[c, 4]
     offset = min(state[v, 2], state[a, 2])
     ends = (state[v, 0] - offset, state[a, 0] - offset)
-    p0 = s0 * _slope(state[v, 1], shape[q, 4 + side], state[v, 3])
-    p1 = -s1 * _slope(state[a, 1], shape[q, 6 + side], state[a, 3])
+    t0 = (1 - 2 * side) * _turn(state[v, 1], shape[q, 4 + side], state[v, 3])
+    t1 = (2 * side - 1) * _turn(state[a, 1], shape[q, 6 + side], state[a, 3])
+    if 0.0 < t0 < math.pi and 0.0 < t1 < math.pi:  # both are reached from this side of the edge
+        return math.inf, 0.0, 0.0
+    p0, p1 = -s0 * math.cos(min(abs(t0), math.pi)), s1 * math.cos(min(abs(t1), math.pi))
     reach, at = _cross(ends, (p0, p1), (0.5 * (s0 + s2), 0.5 * (s1 + s2)), along, x, y)
     if not reach + offset < state[c, 0]:
         return math.inf, 0.0, 0.0
@@ -175,13 +175,19 @@ def _behind(shape: Floats, q: int, side: int, edge: float, distance: float) -> b
     return 2.0 * (across - along * shape[q, 2]) * (distance - edge) >= edge * (along + across)
 
 
-@inlined
-def _goes_on(state: Floats, v: int, direction: float) -> bool:
-    """True when the shortest path to v may go on along an edge: straight, past a saddle or border, or from a source.
+@njit
+def _aside(arrival: float, along: float, whole: float, distance: float, edge: float) -> float:
+    """The angle at the end of an edge from the edge to the source, which lies at `distance` from the edge's start.
 
-    Elsewhere the edge only stands in for a better path still to come, and says nothing about directions.
+    Zero for a path that goes straight on, or past a saddle or border; else the better path still to come is beside
+    the edge, and that is where it comes from. nan where it is not known.
     """
-    return not _slope(state[v, 1], direction, state[v, 3]) < 0.995
+    if not distance > 0.0:
+        return 0.0
+    turn = _turn(arrival, along, whole)
+    if abs(turn) >= math.pi:
+        return 0.0
+    return -math.copysign(math.atan2(distance * abs(math.sin(turn)), edge - distance * math.cos(turn)), turn)
 
 
 @njit
@@ -217,13 +223,13 @@ def march(corners: Corners, front: Front, until: Until) -> None:
                 if position[a] == ACCEPTED:
                     other, turned, source = _through(state, shape, slowness[q], q, side, v, a, c)
                     if other < new:
-                        new, direction, offset = other, _modulo(turned, state[c, 3]), source
+                        new, direction, offset = other, turned, source
                 gain = state[c, 0] - new
                 if not gain > 0.0 or (place == ACCEPTED and (visits[c] >= VISITS or gain < 1e-7 * edge)):
                     continue
-                if new == dv + edge and not _goes_on(state, v, shape[q, 5 - side]):
-                    direction = math.nan
-                state[c, 0], state[c, 1], state[c, 2] = new, direction, offset
+                if new == dv + edge:
+                    direction += _aside(state[v, 1], shape[q, 5 - side], state[v, 3], dv - offset, edge)
+                state[c, 0], state[c, 1], state[c, 2] = new, _modulo(direction, state[c, 3]), offset
                 if place == UNSEEN:
                     touched[reached] = c
                     reached += 1
