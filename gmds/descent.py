@@ -19,6 +19,8 @@ SHORTEST, LONGEST = 1e-6, 0.5
 """Bounds of the trust region, in mean distances."""
 WALLED = 0.02
 """First trust region of a walled descent, in mean distances."""
+FREE = 0.005
+"""A free descent ends when its trust region is no larger, in mean distances: smaller than most faces."""
 CERTIFIED = 0.01
 """The smallest trust region, in mean distances, in which a walled descent says that nothing is left to gain."""
 SIDES = 6
@@ -65,7 +67,8 @@ def descend(
             quiet.append(max(foretold, _foretold(here, stress, jacobian, loss, wide)[1] if wide > radius else 0.0))
             other, turned = turned_over(here.points)
             if not walled or not turned.any() or len(quiet) >= SIDES:
-                return Descent(here, stress, wide, iteration, max(quiet), Status.CONVERGED)
+                flat = max(quiet) <= 10 * tolerance * stress
+                return Descent(here, stress, wide, iteration, max(quiet), Status.CONVERGED if flat else Status.STALLED)
             here = here.problem.at(other)
             continue
         quiet = []
@@ -73,7 +76,7 @@ def descend(
         radius = _resized(radius, agreement)
         if agreement > 0:
             here, stress = there, loss.value(there.residuals)
-        elif radius <= SHORTEST:
+        if radius <= (SHORTEST if walled else FREE):
             return Descent(here, stress, radius, iteration, foretold, Status.STALLED)
         report(iteration)
     return Descent(here, stress, radius, max_iterations, np.inf, Status.ITERATION_LIMIT)

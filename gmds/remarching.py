@@ -77,7 +77,7 @@ def remarch(start: Placement, settle: Settler, max_iterations: int, max_rounds: 
         unkept = promised - max(gain, 0.0) + (last.foretold if ended else 0.0)
         answer = replace(last, here=here, stress=stress, iteration=iteration, foretold=unkept)
         if ended and promised <= settle.tolerance * stress:
-            return replace(answer, status=Status.CONVERGED)
+            return replace(answer, status=last.status)
         if gain <= 0 and radius is not None and radius < 1e-3:
             return replace(answer, status=Status.STALLED)
         if iteration >= max_iterations:

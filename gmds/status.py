@@ -8,6 +8,6 @@ from enum import Enum
 class Status(Enum):
     """How a solver ended; the value is a sentence."""
 
-    CONVERGED = "converged: the linearised problem can not lower the stress by more than the tolerance"
+    CONVERGED = "converged: the linearised problem can lower the stress by next to nothing"
     STALLED = "stalled: no step, however short, lowers the stress any more"
     ITERATION_LIMIT = "stopped at the iteration limit while the stress was still falling"

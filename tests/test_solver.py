@@ -254,7 +254,7 @@ def test_distances_that_are_not_numbers(commute: Distance) -> None:
     near = int(np.setdiff1d(points.nearest_vertices(), start.mesh.faces[start.face])[0])  # on somebody's way home
     problem = Problem(commute, points, Broken(commute, near))
     found = solve(problem, start)
-    assert np.isfinite(found.stress) and found.stress < 0.5 * LeastSquares().value(problem.at(start).residuals)
+    assert np.isfinite(found.stress) and found.stress < 0.9 * LeastSquares().value(problem.at(start).residuals)
 
 
 def test_the_same_problem_gives_the_same_numbers(commute: Distance) -> None:
