@@ -13,6 +13,7 @@ from geodesics._kernels.jit import inlined, njit
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Pair = tuple[float, float]
+Table = tuple[Integers, Integers, Floats]
 Triple = tuple[float, float, float]
 
 UNSEEN, ACCEPTED = -1, -2  # in place of a position in the heap
@@ -132,17 +133,38 @@ def _cross(ends: Pair, slopes: Pair, weights: Pair, length: float, x: float, y: 
 
 
 @inlined
-def _through(state: Floats, shape: Floats, slow: float, q: int, side: int, v: int, a: int, c: int) -> Triple:
+def _inward(table: Table, state: Floats, v: int, u: int, along: float, sign: int) -> float:
+    """The angle at v from the edge to u, of direction `along`, to the way back: positive on the side of the face.
+
+    When the path arrived by a fan of faces without this edge it passes through the vertex, which counts as pi; when
+    the edge has more than two faces, and the path came by another of them, the angle is found there.
+    """
+    arrival, whole = state[v, 1], state[v, 3]
+    turn = _turn(arrival, along, whole)
+    if turn == turn or arrival != arrival:
+        return sign * turn
+    turn = math.pi
+    start, ends, shape = table
+    for q in range(start[v], start[v + 1]):
+        for side in range(2):
+            if ends[q, side] == u and abs(arrival - shape[q, 4 + side]) < HALF_GAP:
+                turn = min(turn, abs(arrival - shape[q, 4 + side]))
+    return -turn
+
+
+@inlined
+def _through(table: Table, state: Floats, slow: float, q: int, side: int, v: int, a: int, c: int) -> Triple:
     """Distance, direction back and offset of the source at c, over the face of corner q and its edge from v to a."""
+    shape = table[2]
     along, across = slow * shape[q, side], slow * shape[q, 1 - side]
     x, y = across * shape[q, 2], across * shape[q, 3]
     ratio = 1.0 / slow
     s0, s1, s2 = ratio * state[v, 4], ratio * state[a, 4], ratio * state[c, 4]
     offset = min(state[v, 2], state[a, 2])
     ends = (state[v, 0] - offset, state[a, 0] - offset)
-    t0 = (1 - 2 * side) * _turn(state[v, 1], shape[q, 4 + side], state[v, 3])
-    t1 = (2 * side - 1) * _turn(state[a, 1], shape[q, 6 + side], state[a, 3])
-    if 0.0 < t0 < math.pi and 0.0 < t1 < math.pi:  # both are reached from this side of the edge
+    t0 = _inward(table, state, v, a, shape[q, 4 + side], 1 - 2 * side)
+    t1 = _inward(table, state, a, v, shape[q, 6 + side], 2 * side - 1)
+    if (0.0 < t0 < math.pi and 0.0 < t1 < math.pi) or v == a:  # both are reached from this side of the edge
         return math.inf, 0.0, 0.0
     p0, p1 = -s0 * math.cos(min(abs(t0), math.pi)), s1 * math.cos(min(abs(t1), math.pi))
     reach, at = _cross(ends, (p0, p1), (0.5 * (s0 + s2), 0.5 * (s1 + s2)), along, x, y)
@@ -176,18 +198,16 @@ def _behind(shape: Floats, q: int, side: int, edge: float, distance: float) -> b
 
 
 @njit
-def _aside(arrival: float, along: float, whole: float, distance: float, edge: float) -> float:
-    """The angle at the end of an edge from the edge to the source, which lies at `distance` from the edge's start.
+def _aside(turn: float, distance: float, edge: float) -> float:
+    """The angle at the end of an edge from the edge to the source, which lies at `distance` from the edge's start and
+    at angle `turn` there.
 
     Zero for a path that goes straight on, or past a saddle or border; else the better path still to come is beside
-    the edge, and that is where it comes from. nan where it is not known.
+    the edge, and that is where it comes from.
     """
-    if not distance > 0.0:
+    if not distance > 0.0 or abs(turn) >= math.pi:
         return 0.0
-    turn = _turn(arrival, along, whole)
-    if abs(turn) >= math.pi:
-        return 0.0
-    return -math.copysign(math.atan2(distance * abs(math.sin(turn)), edge - distance * math.cos(turn)), turn)
+    return math.copysign(math.atan2(distance * abs(math.sin(turn)), edge - distance * math.cos(turn)), turn)
 
 
 @njit
@@ -197,6 +217,7 @@ def march(corners: Corners, front: Front, until: Until) -> None:
     A vertex accepted too soon, which happens behind obtuse angles, is lowered and accepted anew.
     """
     start, ends, shape, slowness = corners.start, corners.ends, corners.shape, corners.slowness
+    table = (start, ends, shape)
     state, position, visits, heap, keys = front.state, front.position, front.visits, front.heap, front.keys
     touched, sizes, nearest, wanted = front.touched, front.sizes, until.nearest, until.wanted
     size, reached, missing, limit = sizes[0], sizes[1], until.missing, until.limit
@@ -221,14 +242,15 @@ def march(corners: Corners, front: Front, until: Until) -> None:
                     continue
                 new, direction, offset = dv + edge, shape[q, 7 - side], state[v, 2]
                 if position[a] == ACCEPTED:
-                    other, turned, source = _through(state, shape, slowness[q], q, side, v, a, c)
+                    other, turned, source = _through(table, state, slowness[q], q, side, v, a, c)
                     if other < new:
                         new, direction, offset = other, turned, source
                 gain = state[c, 0] - new
                 if not gain > 0.0 or (place == ACCEPTED and (visits[c] >= VISITS or gain < 1e-7 * edge)):
                     continue
                 if new == dv + edge:
-                    direction += _aside(state[v, 1], shape[q, 5 - side], state[v, 3], dv - offset, edge)
+                    turn = _inward(table, state, v, c, shape[q, 5 - side], 2 * side - 1)
+                    direction += (1 - 2 * side) * _aside(turn, dv - offset, edge)
                 state[c, 0], state[c, 1], state[c, 2] = new, _modulo(direction, state[c, 3]), offset
                 if place == UNSEEN:
                     touched[reached] = c
