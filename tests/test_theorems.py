@@ -55,12 +55,12 @@ def test_distances_in_the_scale_invariant_metric_forget_scale_and_motion(distanc
 @each_distance
 def test_every_distance_in_every_metric(metric, distance):
     """Zero at the source and nowhere else, finite on one component, the same both ways."""
-    mesh = bumpy_sphere(2)
+    mesh = bumpy_sphere(3)
     d = distance(metric(mesh)).field(SurfacePoints.at_vertices(mesh, [0, 7, 99]))
     assert np.all(np.isfinite(d)) and np.all(d >= 0)
     assert np.all(d[[0, 1, 2], [0, 7, 99]] <= 1e-9 * d.max())
     assert np.count_nonzero(d <= 1e-9 * d.max()) == 3
-    np.testing.assert_allclose(d[0, 99], d[2, 0], rtol=0.1)
+    np.testing.assert_allclose(d[0, 99], d[2, 0], rtol=0.02)
 
 
 @each_distance

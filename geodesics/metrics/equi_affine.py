@@ -21,7 +21,7 @@ def equi_affine(mesh: Mesh, *, regularisation: float = 0.05) -> Metric:
     takes absolute principal curvatures, at least `regularisation` / radius of a sphere of the same area, so the
     invariance is that of convex surfaces; saddles keep it only approximately.
     """
-    return metric_of_tensor(mesh, equi_affine_tensor(mesh, regularisation))
+    return metric_of_lengths(mesh, intrinsic.lengths_from_tensor(equi_affine_tensor(mesh, regularisation)))
 
 
 def equi_affine_tensor(mesh: Mesh, regularisation: float = 0.05) -> Array:
@@ -47,7 +47,25 @@ def equi_affine_tensor(mesh: Mesh, regularisation: float = 0.05) -> Array:
     return positive * (curvature.prod(axis=1) ** -0.25)[:, None, None]
 
 
-def metric_of_tensor(mesh: Mesh, tensor: Array) -> Metric:
-    """The metric with tensor (m, 2, 2) in the barycentric coordinates of each face; mass a third of the area around."""
-    l_sq = intrinsic.lengths_from_tensor(tensor)
+def metric_of_lengths(mesh: Mesh, l_sq: Array) -> Metric:
+    """The metric with these squared lengths (m, 3), made equal along the edges of neighbouring faces.
+
+    Each edge takes the mean of its faces, which leaves the operator as it is and makes geodesics the same both ways;
+    faces that would lose their area so keep their own. Mass is a third of the area around.
+    """
+    shared = shared_lengths(mesh.faces, l_sq, mesh.n_vertices)
+    length = np.sort(np.sqrt(shared), axis=1)
+    flat = length[:, 2] > 0.99 * (length[:, 0] + length[:, 1])
+    l_sq = np.where(flat[:, None], l_sq, shared)
     return Metric(mesh, l_sq, vertex_sums(mesh.faces, intrinsic.areas(l_sq) / 3, mesh.n_vertices))
+
+
+def shared_lengths(faces: NDArray[np.int64], l_sq: Array, n: int) -> Array:
+    """Squared edge lengths (m, 3) on which neighbouring faces agree: from the mean length over the faces of each edge.
+
+    Angles add up round a vertex only then.
+    """
+    i, j = faces[:, [1, 2, 0]], faces[:, [2, 0, 1]]
+    edge = np.unique((np.minimum(i, j) * n + np.maximum(i, j)).ravel(), return_inverse=True)[1].ravel()
+    mean = np.bincount(edge, np.sqrt(l_sq).ravel()) / np.bincount(edge)
+    return (mean[edge] ** 2).reshape(-1, 3)
