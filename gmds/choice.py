@@ -39,7 +39,7 @@ class Evidence:
         when orientation is to be kept, -1 when it is to be reversed, 0 when either will do.
         """
         orientation = abs(self.orientation) if sense == 0 else sense * self.orientation
-        unexplained = np.sqrt(1 - max(self.bend, 0.0) ** 2)
+        unexplained = np.sqrt(1 - np.clip(self.bend, 0.0, 1.0) ** 2)
         spreads = (self.stress, unexplained, 1 - orientation, np.sqrt(self.energy))
         return float(sum(np.log(max(spread, LEAST)) for spread in spreads))
 

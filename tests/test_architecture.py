@@ -38,7 +38,7 @@ def child(code: str) -> str:
 def test_files_fit_on_a_few_screens() -> None:
     length = {path: len(path.read_text(encoding="utf-8").splitlines()) for path in MODULES}
     # kernels may be longer, as each may only call kernels of its own file
-    assert not {dotted(path): n for path, n in length.items() if n > (300 if "_kernels" in path.parts else 200)}
+    assert not {dotted(path): n for path, n in length.items() if n > (350 if "_kernels" in path.parts else 200)}
 
 
 def test_examples_fit_on_one_screen() -> None:
@@ -53,7 +53,8 @@ def test_the_library_never_prints_asserts_or_exits() -> None:
             continue
         for node in ast.walk(parsed(path)):
             called = node.func.id if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) else ""
-            if called in ("print", "exit", "quit", "input", "breakpoint") or isinstance(node, ast.Assert):
+            asserts = isinstance(node, ast.Assert) and not ast.unparse(node.test).endswith(" is not None")  # for mypy
+            if asserts or called in ("print", "exit", "quit", "input", "breakpoint"):
                 found.append(f"{dotted(path)}, line {node.lineno}")
     assert not found
 

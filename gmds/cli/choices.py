@@ -11,9 +11,9 @@ if TYPE_CHECKING:
     from geodesics import Mesh
 
 METRICS = ("embedded", "scale-invariant", "min-curvature", "equi-affine", "affine")
-DISTANCES = ("commute-time", "diffusion", "biharmonic", "geodesic")
+DISTANCES = ("biharmonic", "commute-time", "diffusion", "geodesic")
 LOSSES = ("least-squares", "huber", "minimax")
-EIGENPAIRS = 200
+EIGENPAIRS = 100
 DIFFUSION_TIME = 1.0  # in units of 1 / lambda_1
 
 metric_option = click.option("--metric", type=click.Choice(METRICS), help="Metric in which distances are measured.")
@@ -28,7 +28,7 @@ def chosen_distance(metric: str | None, distance: str | None) -> Callable[[Mesh]
     import geodesics
 
     measure = getattr(geodesics, (metric or "scale-invariant").replace("-", "_"))
-    kind = distance or "commute-time"
+    kind = distance or "biharmonic"
 
     def build(mesh: Mesh) -> Any:
         if kind == "geodesic":
