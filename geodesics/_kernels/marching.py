@@ -102,6 +102,16 @@ def _turn(arrival: float, along: float, whole: float) -> float:
 
 
 @njit
+def _alone(d: float, p: float, length: float, x: float, y: float) -> Pair:
+    """As `_cross`, from the distance d and slope p at the near end of the edge alone."""
+    if not abs(p) < 1.0:
+        return math.inf, 0.0
+    xs, ys = -p * d, d * math.sqrt(1.0 - p * p)
+    at = xs + (x - xs) * (ys / (ys + y))
+    return (math.sqrt((x - xs) * (x - xs) + (y + ys) * (y + ys)), at) if 0.0 < at < length else (math.inf, 0.0)
+
+
+@njit
 def _cross(ends: Pair, slopes: Pair, weights: Pair, length: float, x: float, y: float) -> Pair:
     """Distance at (x, y), y > 0, behind the edge from (0, 0) to (length, 0), and where on the edge its path crosses;
     inf where the path misses the edge, or the edge is longer than a way over the source.
@@ -114,11 +124,14 @@ def _cross(ends: Pair, slopes: Pair, weights: Pair, length: float, x: float, y: 
     (d0, d1), (p0, p1), (w0, w1) = ends, slopes, weights
     xs = 0.5 * (length + (d0 - d1) * (d0 + d1) / length)
     ys = math.sqrt(max((d0 - xs) * (d0 + xs), 0.0))
+    m0 = p0 + xs / d0 if d0 > 0.0 and p0 == p0 else 0.0
+    m1 = p1 - (length - xs) / d1 if d1 > 0.0 and p1 == p1 else 0.0
+    if m0 - m1 > 0.5:  # two waves meet on the edge
+        near, far = _alone(d0, p0, length, x, y), _alone(d1, -p1, length, length - x, y)
+        return near if near[0] < far[0] else (far[0], length - far[1])
     at = xs + (x - xs) * (ys / (ys + y))
     if not 0.0 < at < length or d0 + d1 < length * (1.0 - 1e-9):
         return math.inf, 0.0
-    m0 = p0 + xs / d0 if d0 > 0.0 and p0 == p0 else 0.0
-    m1 = p1 - (length - xs) / d1 if d1 > 0.0 and p1 == p1 else 0.0
     t, w = at / length, w0 + (w1 - w0) * at / length
     if ys > 0.0:  # else the source is on the edge
         r0, r1 = math.sqrt((at - xs) * (at - xs) + ys * ys), math.sqrt((at - x) * (at - x) + y * y)
