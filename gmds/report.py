@@ -55,7 +55,7 @@ def write_report(
     data = {
         "surfaces": [_surface(answer.source, view), _surface(answer.target, turned)],
         "views": _views(answer, errors),
-        "camera": {"up": {"x": 0, "y": 1, "z": 0}, "eye": {"x": 0.95, "y": 0.45, "z": 1.7}},
+        "camera": {"up": {"x": 0, "y": 1, "z": 0}, "eye": {"x": 1.1, "y": 0.55, "z": 2.1}},
     }
     script, plotly = (files("gmds.page") / "report.js").read_text("utf-8"), get_plotlyjs()
     page = Template((files("gmds.page") / "report.html").read_text("utf-8")).substitute(
