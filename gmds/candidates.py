@@ -10,13 +10,12 @@ from numpy.typing import NDArray
 
 from geodesics import SurfacePoints
 from gmds.choice import Evidence, evidence
-from gmds.conformal import ConformalClass
 from gmds.extension import extend
 from gmds.hypotheses import hypotheses
 from gmds.losses import Loss
 from gmds.pairwise import Distance
 from gmds.problem import Problem
-from gmds.refinement import ROUNDS, align, upsample
+from gmds.refinement import ROUNDS, Refiner, upsampled
 from gmds.solver import Solution, solve
 from gmds.surface import Surface, View
 from gmds.upsampling import SampledPair
@@ -25,7 +24,9 @@ Index = NDArray[np.int64]
 Start = Callable[[SampledPair], list[Index]]
 Measured = tuple[Distance, Distance]
 
-PROPOSED = 8  # maps that each metric proposes
+PROPOSED = 6  # maps that each metric proposes
+GONE_ON = 6  # maps that go through all rounds of alignment
+FIRST, REST = (0,), tuple(range(1, len(ROUNDS)))  # rounds of alignment before and after the worse half is dropped
 SAMPLES = 500  # that carry a map through spectral upsampling
 FUNCTIONS = 60  # eigenfunctions of the distances that the solver compares, and of the dense map
 ITERATIONS = 20
@@ -47,14 +48,26 @@ class Hypothesis:
     solution: Solution | None = None
 
 
-def proposals(source: Surface, target: Surface, starts: Sequence[Start]) -> Iterator[Hypothesis]:
-    """Maps from starts in the scale-invariant metric (2.1) and in that of space, each aligned by its own factor."""
-    factors, samples = ConformalClass(target, tuple(time for time, _ in ROUNDS)), source.regular.samples(SAMPLES)
-    for views in ((source.scale_invariant, target.scale_invariant), (source.regular, target.regular)):
-        for rough in hypotheses(SampledPair.of(*views), starts, PROPOSED):
-            images, view = align(source, factors, samples, rough)
-            both = source.regular, view
-            yield Hypothesis(images, both, evidence(source, target, both, samples, images))
+def proposals(source: Surface, target: Surface, starts: Sequence[Start], sense: int) -> Iterator[Hypothesis]:
+    """Maps from starts in each metric of the family |K|^a g, each then aligned by its own factor.
+
+    All go through the first round of alignment; the better ones, and the best of the other orientation, through the
+    others.
+    """
+    refiner, samples = Refiner(source, target), source.regular.samples(SAMPLES)
+
+    def weighed(images: Index, rounds: Sequence[int]) -> Hypothesis:
+        images, view = refiner.aligned(images, rounds)
+        both = source.regular, view
+        return Hypothesis(images, both, evidence(source, target, both, samples, images))
+
+    views = zip(source.views, target.views, strict=True)
+    rough = [images for pair in views for images in hypotheses(SampledPair.of(*pair), starts, PROPOSED)]
+    begun = [weighed(images, FIRST) for images in rough]
+    best = sorted(begun, key=lambda h: h.evidence.loss(sense))[:GONE_ON]
+    mirrored = min(begun, key=lambda h: h.evidence.loss(-sense))
+    for hypothesis in best if any(h is mirrored for h in best) else [*best, mirrored]:
+        yield weighed(hypothesis.images, REST)
 
 
 def proposals_in(
@@ -63,7 +76,7 @@ def proposals_in(
     """Maps from starts in one given metric, refined in the same."""
     samples = views[0].samples(SAMPLES)
     for rough in hypotheses(SampledPair.of(*views), starts, 2 * PROPOSED):
-        images = upsample(*views, samples, rough)
+        images = upsampled(*views, rough)
         yield Hypothesis(images, views, evidence(source, target, views, samples, images))
 
 

@@ -25,6 +25,7 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 LARGEST_FACTOR = 100.0
+FINE = 60  # eigenfunctions of the scale-invariant metric: they resolve parts that are small in space
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,9 +40,9 @@ class ConformalClass:
 
     @functools.cached_property
     def basis(self) -> Array:
-        """Functions (n, q) orthonormal in area: the span of the eigenfunctions in both metrics."""
+        """Functions (n, q) orthonormal in area: spanned by eigenfunctions of space and of (2.1)."""
         surface = self.surface
-        raw = np.hstack([surface.regular.functions, surface.scale_invariant.functions[:, 1:]])
+        raw = np.hstack([surface.regular.functions, surface.views[0].functions[:, 1:FINE]])
         gram = raw.T @ (surface.areas[:, None] * raw)
         values, vectors = np.linalg.eigh(gram)
         kept = values > 1e-4
@@ -58,8 +59,8 @@ class ConformalClass:
         mass /= mass.sum()
         gram = self.basis.T @ (mass[:, None] * self.basis)
         values, vectors = scipy.linalg.eigh(self.energy, gram, subset_by_index=(0, min(count, len(gram)) - 1))
-        functions = self.basis @ vectors
-        return View(self.surface.mesh, Spectrum(self.surface.mesh, mass, np.maximum(values, 0), functions))
+        values[0] = 0.0  # the constant, up to rounding
+        return View(self.surface.mesh, Spectrum(self.surface.mesh, mass, np.maximum(values, 0), self.basis @ vectors))
 
     @functools.cached_property
     def _smoothers(self) -> dict[float, Callable[[Array], Array]]:

@@ -24,26 +24,27 @@ def functional_map(source_rows: Array, target_rows: Array) -> Array:
 
 def nearest_rows(queries: Array, rows: Array) -> Index:
     """For each query (p, k) the index of the nearest row (n, k), by blocked matrix products in single precision."""
-    q, r = queries.astype(np.float32), rows.astype(np.float32)
-    half, transposed = 0.5 * np.einsum("ik,ik->i", r, r), np.ascontiguousarray(r.T)
+    r = rows.astype(np.float32)
+    q = np.hstack([queries, np.ones((len(queries), 1))]).astype(np.float32)
+    lifted = np.vstack([-r.T, 0.5 * np.einsum("ik,ik->i", r, r)])  # |r|^2 / 2 - q . r in one product
     result = np.empty(len(q), dtype=np.int64)
     step = max(1, _BLOCK // len(r))
     for start in range(0, len(q), step):
         here = slice(start, start + step)
-        result[here] = (half - q[here] @ transposed).argmin(axis=1)
+        result[here] = (q[here] @ lifted).argmin(axis=1)
     return result
 
 
 def spectral_upsampling(
-    source_rows: Array, target_rows: Array, images: Index, sizes: Iterable[int]
+    source_rows: Array, target_functions: Array, images: Index, sizes: Iterable[int], goals: Index
 ) -> tuple[Array, Index]:
     """Refine the images (p,) of p points with ever more eigenfunctions (ZoomOut; Melzi et al. 2019).
 
-    `source_rows` (p, k) are eigenfunctions at the points, `target_rows` (n, k) at everything they may be sent to.
-    Returns the last functional map and the images it gives.
+    `source_rows` (p, k) are eigenfunctions at the points, `target_functions` (n, k) at all target vertices, of which
+    `goals` are those that points may be sent to. Returns the last functional map and the images it gives.
     """
-    matrix = np.empty((0, 0))
+    matrix, rows = np.empty((0, 0)), target_functions[goals]
     for k in sizes:
-        matrix = functional_map(source_rows[:, :k], target_rows[images, :k])
-        images = nearest_rows(source_rows[:, :k], target_rows[:, :k] @ matrix.T)
+        matrix = functional_map(source_rows[:, :k], target_functions[images, :k])
+        images = goals[nearest_rows(source_rows[:, :k], rows[:, :k] @ matrix.T)]
     return matrix, images

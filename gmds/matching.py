@@ -62,14 +62,14 @@ def match(
     if known is not None:
         starts = [from_landmarks(*(points.nearest_vertices() for points in known))]
     if distance is None:
-        given, found = None, proposals(ours, theirs, starts)
+        given, found = None, proposals(ours, theirs, starts, sense)
     else:
         given = distance(ours.mesh), distance(theirs.mesh)
         views = view_of(given[0], ours), view_of(given[1], theirs)
         found = proposals_in(ours, theirs, views, starts)
     best = []
     for i, hypothesis in enumerate(found):
-        report("refining", 0.1 + 0.6 * min(i / 16, 1))
+        report("refining", 0.1 + 0.6 * min(i / 8, 1))
         best = distinct([*best, hypothesis], EMBEDDED, sense)
     placed = []
     for i, hypothesis in enumerate(best):

@@ -1,8 +1,10 @@
-"""From a rough map of all vertices to a good one, in the metric that suits the pair."""
+"""From a rough map to a good one, in the metric that suits the pair."""
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +13,7 @@ from gmds.conformal import ConformalClass
 from gmds.functional_maps import nearest_rows, spectral_upsampling
 from gmds.surface import Surface, View
 
+Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 # heat time, in units of the area, that smooths the factor, and the eigenfunctions used after; coarse to fine
@@ -20,35 +23,70 @@ ROUNDS: tuple[tuple[float, tuple[int, ...]], ...] = (
     (1e-3, (24, 40, 60)),
 )
 LADDER = (16, 20, 24, 28, 32, 40, 50, 60)
+CARRIERS = 1500  # source vertices that carry a map from one round to the next
+FITTED = 500  # the first of them, to which functional maps are fitted
+GOALS = 2500  # target vertices that they may be sent to
 
 
-def align(
-    source: Surface,
-    target: ConformalClass,
-    samples: Index,
-    images: Index,
-    rounds: Sequence[tuple[float, tuple[int, ...]]] = ROUNDS,
-) -> tuple[Index, View]:
-    """A map (n,) to target vertices, refined in the metric of the target in which it keeps area; and that view.
+@dataclass(frozen=True, eq=False)
+class Refiner:
+    """Refines maps between two surfaces; a map is an index array (n,) of target vertices."""
 
-    Each round finds that metric for the map so far, and refines the map of the `samples` (p,) by spectral upsampling
-    from few eigenfunctions to many.
-    """
-    view = target.surface.regular
-    for time, sizes in rounds:
-        amounts = np.bincount(images, source.areas, minlength=len(target.surface.areas))
-        view = target.view(target.density(amounts, time), sizes[-1])
-        images = upsample(source.regular, view, samples, images, sizes)
-    return images, view
+    source: Surface
+    target: Surface
+
+    @functools.cached_property
+    def factors(self) -> ConformalClass:
+        """The metrics of the target among which the right one is sought."""
+        return ConformalClass(self.target, tuple(time for time, _ in ROUNDS))
+
+    @functools.cached_property
+    def _carriers(self) -> tuple[Index, Array]:
+        """Farthest points of the source, and the area nearest to each."""
+        cells, used = self.source.regular.cells(CARRIERS), self.source.regular.usable
+        return cells.samples, np.bincount(cells.nearest[used], self.source.areas[used], len(cells.samples))
+
+    @functools.cached_property
+    def _goals(self) -> Index:
+        """Farthest points of the target."""
+        return self.target.regular.samples(GOALS)
+
+    def aligned(self, images: Index, rounds: Sequence[int]) -> tuple[Index, View]:
+        """A map refined in the metric of the target in which it keeps area, and the target in that metric.
+
+        Each of the `rounds`, indices into `ROUNDS`, finds that metric for the map so far, and refines the map by
+        spectral upsampling from few eigenfunctions to many.
+        """
+        (carriers, share), ours, view = self._carriers, self.source.regular, self.target.regular
+        sent, matrix = images[carriers], np.eye(1)
+        for number in rounds:
+            time, sizes = ROUNDS[number]
+            amounts = np.bincount(sent, share, minlength=len(view.functions))
+            view = self.factors.view(self.factors.density(amounts, time), sizes[-1])
+            steps = _available(sizes, ours, view)
+            fitted, rows = slice(FITTED), ours.functions[carriers]
+            matrix, _ = spectral_upsampling(rows[fitted], view.functions, sent[fitted], steps, self._goals)
+            sent = _images(rows, view, matrix, self._goals)
+        return _images(ours.functions, view, matrix, view.usable), view
 
 
-def upsample(source: View, target: View, samples: Index, images: Index, sizes: Sequence[int] = LADDER) -> Index:
-    """A map (n,) to target vertices after spectral upsampling of its `samples` (p,) between two views."""
+def upsampled(source: View, target: View, images: Index) -> Index:
+    """A map (n,) to target vertices refined by spectral upsampling between two given views."""
+    samples = source.samples(FITTED)
+    steps = _available(LADDER, source, target)
+    matrix, _ = spectral_upsampling(
+        source.functions[samples], target.functions, images[samples], steps, target.usable
+    )
+    return _images(source.functions, target, matrix, target.usable)
+
+
+def _images(rows: Array, target: View, matrix: Array, goals: Index) -> Index:
+    """For each row (p, k) of source functions the vertex among `goals` that a functional map sends it to."""
+    k = len(matrix)
+    return goals[nearest_rows(rows[:, :k], target.functions[goals, :k] @ matrix.T)]
+
+
+def _available(sizes: Sequence[int], source: View, target: View) -> list[int]:
+    """The sizes, cut off at the number of eigenfunctions there are."""
     most = min(source.functions.shape[1], target.functions.shape[1])
-    steps = sorted({min(k, most) for k in sizes})
-    usable = target.usable
-    position = np.zeros(len(target.functions), dtype=np.int64)
-    position[usable] = np.arange(len(usable))
-    rows = target.functions[usable, : steps[-1]]
-    matrix, _ = spectral_upsampling(source.functions[samples], rows, position[images[samples]], steps)
-    return usable[nearest_rows(source.functions[:, : steps[-1]], rows @ matrix.T)]
+    return sorted({min(k, most) for k in sizes})

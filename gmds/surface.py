@@ -16,13 +16,13 @@ from geodesics import (
     Spectrum,
     eigenpairs,
     embedded,
-    farthest_point_sampling,
     scale_invariant,
 )
 from geodesics.curvature import mean_curvature
 from geodesics.errors import MeshError
 from geodesics.intrinsic import areas, squared_lengths
 from geodesics.orientation import orient_faces
+from geodesics.sampling import Cells, farthest_point_cells
 from geodesics.topology import vertex_components
 
 Array = NDArray[np.float64]
@@ -31,6 +31,8 @@ Index = NDArray[np.int64]
 FEWEST_VERTICES = 12  # below this there are not enough eigenfunctions to start from
 EIGENFUNCTIONS = 100
 ENOUGH_EIGENFUNCTIONS = 30
+SMOOTHING = 2e-2  # of the curvature: the starts want its large features, not its details
+EXPONENTS = (1.0, 0.5)  # of |K|, beside 0: what suits parts that grew much, a little, and not at all
 SAMPLING_FUNCTIONS = 20  # of a commute-time distance, for choosing samples: the rest does not move them much
 
 
@@ -87,9 +89,13 @@ class View:
 
     def samples(self, count: int) -> Index:
         """Farthest points (at most `count`) in commute-time distance, from the point farthest from all others."""
+        return self.cells(count).samples
+
+    def cells(self, count: int) -> Cells:
+        """These samples with their Voronoi cells."""
         distance = self.distance(SAMPLING_FUNCTIONS)
         first = int((distance.embedding**2).sum(axis=1).argmax())
-        return farthest_point_sampling(distance, min(count, len(self.usable)), first)
+        return farthest_point_cells(distance, min(count, len(self.usable)), first)
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,9 +114,10 @@ class Surface:
         return View.of(eigenpairs(metric(self.mesh), self.count))
 
     @functools.cached_property
-    def scale_invariant(self) -> View:
-        """The surface in the scale-invariant metric (2.1)."""
-        return self.view(scale_invariant)
+    def views(self) -> tuple[View, ...]:
+        """The surface in members of the family |K|^a g, from the scale-invariant metric (2.1) to that of space."""
+        curved = [functools.partial(scale_invariant, exponent=a, smoothing=SMOOTHING) for a in EXPONENTS]
+        return (*(self.view(metric) for metric in curved), self.regular)
 
     @functools.cached_property
     def regular(self) -> View:

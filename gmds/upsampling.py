@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 SOURCE_SAMPLES = 400
-TARGET_SAMPLES = 1500
+TARGET_SAMPLES = 1000
 COARSE = (6, 7, 8, 10, 12, 14, 17, 20, 24)  # numbers of eigenfunctions while forms are compared too
 FORM_WEIGHT = 0.6
 JUDGED = 200  # samples and eigenfunctions that tell one start from another
