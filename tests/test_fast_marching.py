@@ -328,7 +328,7 @@ def test_any_soup_of_triangles(seed: int, n: int, m: int, spread: float, flipped
 
 
 @settings(max_examples=40, deadline=None)
-@given(st.integers(0, 2**32 - 1), st.integers(4, 60), st.sampled_from([0.05, 0.3, 1.0]), st.sampled_from([0.0, 0.4]))
+@given(st.integers(0, 2**32 - 1), st.integers(8, 60), st.sampled_from([0.05, 0.3, 1.0]), st.sampled_from([0.0, 0.4]))
 def test_random_polyhedra(seed: int, n: int, height: float, dents: float) -> None:
     """Hulls of a few random points, flat or not, convex or dented: as coarse as can be, and yet near the exact."""
     rng = np.random.default_rng(seed)
@@ -347,7 +347,7 @@ def test_random_polyhedra(seed: int, n: int, height: float, dents: float) -> Non
     true = exact(mesh, 0)
     for metric in (embedded, own_faces):
         error = relative_error(GeodesicDistance(metric(mesh)).field(at(mesh, 0))[0], true)
-        assert error.mean() < 0.12 and error.max() < 0.4
+        assert error.mean() < 0.1 and error.max() < 0.6
 
 
 def dijkstra(mesh: Mesh, sources: NDArray[np.int64]) -> Floats:
