@@ -18,6 +18,7 @@ Triple = tuple[float, float, float]
 
 UNSEEN, ACCEPTED = -1, -2  # in place of a position in the heap
 HALF_GAP = 500.0  # radians: directions further apart are of two fans of faces that meet only in the vertex
+ALONG = -math.inf  # in place of a direction: by the edge from a neighbour, to be measured if it comes to that
 VISITS = 20  # how often a vertex may be accepted anew
 
 
@@ -210,17 +211,25 @@ def _behind(shape: Floats, q: int, side: int, edge: float, distance: float) -> b
     return 2.0 * (across - along * shape[q, 2]) * (distance - edge) >= edge * (along + across)
 
 
-@njit
-def _aside(turn: float, distance: float, edge: float) -> float:
-    """The angle at the end of an edge from the edge to the source, which lies at `distance` from the edge's start and
-    at angle `turn` there.
+@inlined
+def _beside(table: Table, state: Floats, v: int) -> float:
+    """The direction back from v, reached along an edge, to the source as seen from the start of that edge.
 
-    Zero for a path that goes straight on, or past a saddle or border; else the better path still to come is beside
-    the edge, and that is where it comes from.
+    It is the edge's own for a path that goes straight on, or past a saddle or border. Else the better path still to
+    come runs beside the edge, and this is where it comes from.
     """
-    if not distance > 0.0 or abs(turn) >= math.pi:
-        return 0.0
-    return math.copysign(math.atan2(distance * abs(math.sin(turn)), edge - distance * math.cos(turn)), turn)
+    start, ends, shape = table
+    for q in range(start[v], start[v + 1]):
+        for side in range(2):
+            u = ends[q, side]
+            edge = 0.5 * (state[u, 4] + state[v, 4]) * shape[q, side]
+            if state[u, 0] + edge == state[v, 0]:
+                turn, distance = _turn(state[u, 1], shape[q, 6 + side], state[u, 3]), state[u, 0] - state[u, 2]
+                if not abs(turn) < math.pi or not distance > 0.0:
+                    return shape[q, 4 + side]
+                angle = math.atan2(distance * math.sin(abs(turn)), edge - distance * math.cos(turn))
+                return _modulo(shape[q, 4 + side] - math.copysign(angle, turn), state[v, 3])
+    return math.nan
 
 
 @njit
@@ -241,6 +250,8 @@ def march(corners: Corners, front: Front, until: Until) -> None:
         position[v] = ACCEPTED
         visits[v] += 1
         dv = state[v, 0]
+        if state[v, 1] == ALONG:
+            state[v, 1] = _beside(table, state, v)
         if wanted[v] and visits[v] == 1:
             missing -= 1
             limit = min(limit, dv + until.margin) if missing == 0 else limit
@@ -253,18 +264,15 @@ def march(corners: Corners, front: Front, until: Until) -> None:
                 edge = 0.5 * (state[v, 4] + state[c, 4]) * shape[q, 1 - side]
                 if place == ACCEPTED and state[c, 0] <= dv and _behind(shape, q, side, edge, dv - state[v, 2]):
                     continue
-                new, direction, offset = dv + edge, shape[q, 7 - side], state[v, 2]
+                new, direction, offset = dv + edge, ALONG, state[v, 2]
                 if position[a] == ACCEPTED:
                     other, turned, source = _through(table, state, slowness[q], q, side, v, a, c)
                     if other < new:
-                        new, direction, offset = other, turned, source
+                        new, direction, offset = other, _modulo(turned, state[c, 3]), source
                 gain = state[c, 0] - new
                 if not gain > 0.0 or (place == ACCEPTED and (visits[c] >= VISITS or gain < 1e-7 * edge)):
                     continue
-                if new == dv + edge:
-                    turn = _inward(table, state, v, c, shape[q, 5 - side], 2 * side - 1)
-                    direction += (1 - 2 * side) * _aside(turn, dv - offset, edge)
-                state[c, 0], state[c, 1], state[c, 2] = new, _modulo(direction, state[c, 3]), offset
+                state[c, 0], state[c, 1], state[c, 2] = new, direction, offset
                 if place == UNSEEN:
                     touched[reached] = c
                     reached += 1
