@@ -110,66 +110,64 @@ def _above(lengths: Floats, h: int) -> tuple[float, float]:
 
 
 @njit
+def _flip(faces: Integers, lengths: Floats, twin: Integers, phi: Floats, h: int) -> tuple[int, int, int, int]:
+    """Replace the edge h by the other diagonal of its two faces; returns the four edges around them."""
+    t = twin[h]
+    f, g, k, j = h // 3, t // 3, h % 3, t % 3
+    k1, k2, j1, j2 = (k + 1) % 3, (k + 2) % 3, (j + 1) % 3, (j + 2) % 3
+    xc, yc = _above(lengths, h)
+    xd, yd = _above(lengths, t)
+    length = math.hypot(xc - (lengths[f, k] - xd), yc + yd)
+    a, b, c, d = faces[f, k1], faces[f, k2], faces[f, k], faces[g, j]
+    ca, bc, ad, db = lengths[f, k2], lengths[f, k1], lengths[g, j1], lengths[g, j2]
+    phi_c, phi_b, phi_d, phi_a = phi[f, k], phi[f, k2], phi[g, j], phi[g, j2]
+    ends = (twin[3 * g + j1], twin[3 * f + k2], twin[3 * f + k1], twin[3 * g + j2])
+    # f becomes (c, a, d) and g becomes (d, b, c)
+    faces[f, 0], faces[f, 1], faces[f, 2] = c, a, d
+    faces[g, 0], faces[g, 1], faces[g, 2] = d, b, c
+    lengths[f, 0], lengths[f, 1], lengths[f, 2] = ad, length, ca
+    lengths[g, 0], lengths[g, 1], lengths[g, 2] = bc, length, db
+    phi[f, 0], phi[f, 1], phi[f, 2] = phi_c, phi_a, phi_d + corner_angle(bc, db, length)
+    phi[g, 0], phi[g, 1], phi[g, 2] = phi_d, phi_b, phi_c + corner_angle(ad, ca, length)
+    old = (3 * g + j1, 3 * f + k2, 3 * f + k1, 3 * g + j2)
+    new = (3 * f, 3 * f + 2, 3 * g, 3 * g + 2)
+    for i in range(4):
+        end = ends[i]
+        for q in range(4):  # the four may be glued to one another
+            if ends[i] == old[q]:
+                end = new[q]
+        twin[new[i]] = end
+        if end >= 0:
+            twin[end] = new[i]
+    twin[3 * f + 1], twin[3 * g + 1] = 3 * g + 1, 3 * f + 1
+    return new
+
+
+@njit
 def flip_to_delaunay(faces: Integers, lengths: Floats, twin: Integers, phi: Floats, budget: int) -> int:
     """Flip in place until no edge has opposite angles above pi in sum, at most `budget` flips; returns their number."""
     count = twin.shape[0]
-    stack = np.empty(count, dtype=np.int64)
-    waiting = np.zeros(count, dtype=np.bool_)
+    stack, waiting = np.empty(count, dtype=np.int64), np.zeros(count, dtype=np.bool_)
     size, flips = 0, 0
     for h in range(count):
         if twin[h] > h:
-            stack[size] = h
-            waiting[h] = True
+            stack[size], waiting[h] = h, True
             size += 1
     while size > 0 and flips < budget:
         size -= 1
         h = stack[size]
         waiting[h] = False
-        t = twin[h]
-        f, g = h // 3, t // 3
-        if t < 0 or f == g:
+        f, g, k, j = h // 3, twin[h] // 3, h % 3, twin[h] % 3
+        if twin[h] < 0 or f == g:
             continue
-        k, j = h % 3, t % 3
-        k1, k2, j1, j2 = (k + 1) % 3, (k + 2) % 3, (j + 1) % 3, (j + 2) % 3
-        opposite = corner_angle(lengths[f, k], lengths[f, k1], lengths[f, k2])
-        opposite += corner_angle(lengths[g, j], lengths[g, j1], lengths[g, j2])
+        opposite = corner_angle(lengths[f, k], lengths[f, (k + 1) % 3], lengths[f, (k + 2) % 3])
+        opposite += corner_angle(lengths[g, j], lengths[g, (j + 1) % 3], lengths[g, (j + 2) % 3])
         if opposite <= math.pi + 1e-9:
             continue
-        xc, yc = _above(lengths, h)
-        xd, yd = _above(lengths, t)
-        length = math.hypot(xc - (lengths[f, k] - xd), yc + yd)
-        a, b, c, d = faces[f, k1], faces[f, k2], faces[f, k], faces[g, j]
-        ca, bc, ad, db = lengths[f, k2], lengths[f, k1], lengths[g, j1], lengths[g, j2]
-        t_ca, t_bc, t_ad, t_db = twin[3 * f + k2], twin[3 * f + k1], twin[3 * g + j1], twin[3 * g + j2]
-        phi_c, phi_b, phi_d, phi_a = phi[f, k], phi[f, k2], phi[g, j], phi[g, j2]
-        # f becomes (c, a, d) and g becomes (d, b, c)
-        faces[f, 0], faces[f, 1], faces[f, 2] = c, a, d
-        faces[g, 0], faces[g, 1], faces[g, 2] = d, b, c
-        lengths[f, 0], lengths[f, 1], lengths[f, 2] = ad, length, ca
-        lengths[g, 0], lengths[g, 1], lengths[g, 2] = bc, length, db
-        phi[f, 0], phi[f, 1], phi[f, 2] = phi_c, phi_a, phi_d + corner_angle(bc, db, length)
-        phi[g, 0], phi[g, 1], phi[g, 2] = phi_d, phi_b, phi_c + corner_angle(ad, ca, length)
-        # an outer edge may be glued to another outer edge of the same pair: rename its end as well
-        new = (3 * f, 3 * f + 2, 3 * g, 3 * g + 2)
-        old = (3 * g + j1, 3 * f + k2, 3 * f + k1, 3 * g + j2)
-        ends = (t_ad, t_ca, t_bc, t_db)
-        for i in range(4):
-            end = ends[i]
-            for q in range(4):
-                if ends[i] == old[q]:
-                    end = new[q]
-            twin[new[i]] = end
-            if end >= 0:
-                twin[end] = new[i]
-        twin[3 * f + 1] = 3 * g + 1
-        twin[3 * g + 1] = 3 * f + 1
         flips += 1
-        for i in range(4):
-            e = new[i]
-            if twin[e] >= 0:
-                e = min(e, twin[e])
-                if not waiting[e]:
-                    waiting[e] = True
-                    stack[size] = e
-                    size += 1
+        for e in _flip(faces, lengths, twin, phi, h):
+            first = min(e, twin[e])
+            if first >= 0 and not waiting[first]:
+                stack[size], waiting[first] = first, True
+                size += 1
     return flips
