@@ -8,9 +8,10 @@ from typing import Any, Literal
 
 from geodesics import Mesh
 from gmds import initialization
+from gmds._threads import on_one_blas_thread
 from gmds._validation import check_landmarks, check_sample_count, suggest_keywords
 from gmds.answer import answer
-from gmds.candidates import distinct, embed, proposals, proposals_in
+from gmds.candidates import Hypothesis, Start, distinct, embed, proposals, proposals_in
 from gmds.correspondence import Correspondence
 from gmds.initialization.landmarks import landmarks as from_landmarks
 from gmds.losses import LeastSquares, Loss
@@ -23,7 +24,8 @@ SENSE = {"preserve": 1, "reverse": -1, "any": 0}
 
 
 @suggest_keywords
-def match(
+@on_one_blas_thread
+def match(  # noqa: PLR0913 - the signature is a promise
     source: Mesh,
     target: Mesh,
     *,
@@ -58,7 +60,7 @@ def match(
     report("measuring", 0.0)
     ours, theirs = measure(source), measure(target)
     count = SAMPLES if n_samples is None else check_sample_count(n_samples, source)
-    starts = list(initialization.ALL)
+    starts: list[Start] = list(initialization.ALL)
     if known is not None:
         starts = [from_landmarks(*(points.nearest_vertices() for points in known))]
     if distance is None:
@@ -67,7 +69,7 @@ def match(
         given = distance(ours.mesh), distance(theirs.mesh)
         views = view_of(given[0], ours), view_of(given[1], theirs)
         found = proposals_in(ours, theirs, views, starts)
-    best = []
+    best: list[Hypothesis] = []
     for i, hypothesis in enumerate(found):
         report("refining", 0.1 + 0.6 * min(i / 8, 1))
         best = distinct([*best, hypothesis], EMBEDDED, sense)

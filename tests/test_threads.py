@@ -1,0 +1,66 @@
+"""Matching runs BLAS on one thread, gives the threads back, and says the same whatever their number."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import scipy.linalg
+from threadpoolctl import threadpool_info, threadpool_limits
+
+from gmds._threads import on_one_blas_thread, one_blas_thread
+
+
+def threads() -> set[int]:
+    scipy.linalg.inv(np.eye(2))
+    return {library["num_threads"] for library in threadpool_info() if library["user_api"] == "blas"}
+
+
+def test_one_thread_inside_and_the_former_number_after() -> None:
+    with threadpool_limits(2, user_api="blas"):
+        before = threads()
+        with one_blas_thread():
+            assert threads() == {1}
+            with one_blas_thread():
+                assert threads() == {1}
+            assert threads() == {1}
+        assert threads() == before
+
+
+def test_threads_come_back_after_an_error() -> None:
+    @on_one_blas_thread
+    def fails() -> None:
+        assert threads() == {1}
+        raise KeyError
+
+    with threadpool_limits(2, user_api="blas"):
+        before = threads()
+        with pytest.raises(KeyError):
+            fails()
+        assert threads() == before
+
+
+def test_a_map_does_not_depend_on_the_number_of_threads() -> None:
+    code = (
+        "import sys; sys.path.insert(0, 'tests')\n"
+        "from shapes import bumpy_sphere, moved\nimport gmds\n"
+        "answer = gmds.match(bumpy_sphere(3), moved(bumpy_sphere(3, height=0.2)))\n"
+        "sys.stdout.buffer.write(answer.points.face.tobytes() + answer.points.barycentric.tobytes())\n"
+    )
+    digests = set()
+    for count in ("1", "2"):
+        variables = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"), count)
+        done = subprocess.run(
+            [sys.executable, "-c", code],
+            env={**os.environ, **variables, "PYTHONHASHSEED": count},
+            cwd=Path(__file__).parents[1],
+            capture_output=True,
+            check=True,
+        )
+        digests.add(hashlib.sha256(done.stdout).hexdigest())
+    assert len(digests) == 1
