@@ -1,4 +1,4 @@
-"""The marching front. Arrays leave their tuples before the loops: counting references cost 5/6 of the time."""
+"""The marching front. Arrays leave their tuples before the loops, as counting references is slow."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from geodesics._kernels.jit import inlined, njit
+from geodesics._kernels.jit import inlined, njit, uncounted
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -232,7 +232,7 @@ def _beside(table: Table, state: Floats, v: int) -> float:
     return math.nan
 
 
-@njit
+@uncounted
 def march(corners: Corners, front: Front, until: Until) -> None:
     """Accept the vertices of the heap in order of distance, each carrying the front over the faces around it.
 
