@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from shapes import bumpy_sphere, disc, ellipsoid, icosphere, jittered, joined, rectangle, torus, with_isolated
 
 from geodesics import Mesh, intrinsic
 from geodesics.delaunay import GluedTriangulation, glued_delaunay, glued_faces, intrinsic_delaunay
 from geodesics.intrinsic import angles, areas, squared_lengths
-from tests.shapes import bumpy_sphere, disc, ellipsoid, icosphere, jittered, joined, rectangle, torus, with_isolated
 
 
 def flattened(mesh: Mesh, factor: float = 0.15) -> Mesh:

@@ -11,10 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
+from shapes import bumpy_sphere, ellipsoid, icosphere, jittered, joined, moved, rectangle, torus, with_isolated
 
 from geodesics import GeodesicDistance, Mesh, Metric, SurfacePoints, embedded
 from geodesics.metric import conformal
-from tests.shapes import bumpy_sphere, ellipsoid, icosphere, jittered, joined, moved, rectangle, torus, with_isolated
 
 Floats = NDArray[np.float64]
 

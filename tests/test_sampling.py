@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from shapes import bumpy_sphere, icosphere, joined, moved, rectangle, torus, with_isolated
 
 from geodesics import (
     CommuteTimeDistance,
@@ -20,7 +21,6 @@ from geodesics import (
     voronoi_cells,
 )
 from geodesics.sampling import farthest_point_cells
-from tests.shapes import bumpy_sphere, icosphere, joined, moved, rectangle, torus, with_isolated
 
 SQUEEZED = Mesh(bumpy_sphere(3).vertices * [0.3, 1, 1], bumpy_sphere(3).faces)
 
