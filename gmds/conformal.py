@@ -40,13 +40,13 @@ class ConformalClass:
 
     @functools.cached_property
     def basis(self) -> Array:
-        """Functions (n, q) orthonormal in area: spanned by eigenfunctions of space and of (2.1)."""
-        surface = self.surface
-        raw = np.hstack([surface.regular.functions, surface.views[0].functions[:, 1:FINE]])
-        gram = raw.T @ (surface.areas[:, None] * raw)
-        values, vectors = np.linalg.eigh(gram)
+        """Functions (n, q) orthonormal in area: eigenfunctions of space, and what those of (2.1) add to them."""
+        regular, weight = self.surface.regular.functions, self.surface.areas[:, None]
+        others = self.surface.views[0].functions[:, 1:FINE]
+        others = others - regular @ (regular.T @ (weight * others))
+        values, vectors = np.linalg.eigh(others.T @ (weight * others))
         kept = values > 1e-4
-        return raw @ (vectors[:, kept] / np.sqrt(values[kept]))
+        return np.hstack([regular, others @ (vectors[:, kept] / np.sqrt(values[kept]))])
 
     @functools.cached_property
     def energy(self) -> Array:
