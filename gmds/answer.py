@@ -53,8 +53,8 @@ def _original(source: Surface, target: Surface, hypothesis: Hypothesis) -> Surfa
         row = used[cKDTree(source.mesh.vertices[used]).query(source.mesh.vertices)[1]]
     face, weight = target.face_index[points.face[row]], points.barycentric[row]
     corners, turned = target.original.faces[face], target.mesh.faces[points.face[row]]
-    order = (corners[:, :, None] == turned[:, None, :]).argmax(axis=2)  # orientation may have turned the face
-    return SurfacePoints(target.original, face, np.take_along_axis(weight, order, axis=1))
+    swapped = (corners != turned).any(axis=1, keepdims=True)  # a turned face keeps its first corner
+    return SurfacePoints(target.original, face, np.where(swapped, weight[:, [0, 2, 1]], weight))
 
 
 def _distortion(source: Surface, hypothesis: Hypothesis) -> Array:
