@@ -16,6 +16,7 @@ from geodesics.lanczos import smallest_eigenpairs
 from geodesics.laplacian import lumped_mass, stiffness
 from geodesics.mesh import Mesh
 from geodesics.metric import Metric
+from geodesics.threads import on_one_blas_thread
 
 Array = NDArray[np.float64]
 
@@ -34,6 +35,7 @@ class Spectrum:
     eigenfunctions: Array
 
 
+@on_one_blas_thread
 def eigenpairs(
     metric: Metric,
     count: int,

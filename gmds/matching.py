@@ -7,8 +7,8 @@ from collections.abc import Callable
 from typing import Any, Literal
 
 from geodesics import Mesh
+from geodesics.threads import on_one_blas_thread
 from gmds import initialization
-from gmds._threads import on_one_blas_thread
 from gmds._validation import check_landmarks, check_sample_count, suggest_keywords
 from gmds.answer import answer
 from gmds.candidates import Hypothesis, Start, distinct, embed, proposals, proposals_in

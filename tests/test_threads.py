@@ -13,7 +13,7 @@ import pytest
 import scipy.linalg
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from gmds._threads import on_one_blas_thread, one_blas_thread
+from geodesics.threads import on_one_blas_thread, one_blas_thread
 
 
 def threads() -> set[int]:

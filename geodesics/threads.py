@@ -1,6 +1,6 @@
 """Linear algebra on one thread: threads make small products slower, and the last digits depend on their number.
 
-On two shared cores the threads of OpenBLAS took three to five times the CPU time of one for a match.
+On two shared cores the threads of OpenBLAS took three to five times the CPU time of one to match two meshes.
 """
 
 from __future__ import annotations
