@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from geodesics import SurfacePoints
+from geodesics import DiffusionDistance, SurfacePoints
 from gmds.choice import Evidence, evidence
 from gmds.extension import extend
 from gmds.hypotheses import hypotheses
@@ -18,6 +18,7 @@ from gmds.problem import Problem
 from gmds.refinement import ROUNDS, Refiner, upsampled
 from gmds.solver import Solution, solve
 from gmds.surface import Surface, View
+from gmds.symmetries import mirror
 from gmds.upsampling import SampledPair
 
 Index = NDArray[np.int64]
@@ -28,7 +29,8 @@ PROPOSED = 6  # maps that each metric proposes
 GONE_ON = 6  # maps that go through all rounds of alignment
 FIRST, REST = (0,), tuple(range(1, len(ROUNDS)))  # rounds of alignment before and after the worse half is dropped
 SAMPLES = 500  # that carry a map through spectral upsampling
-FUNCTIONS = 60  # eigenfunctions of the distances that the solver compares, and of the dense map
+FUNCTIONS = 60  # eigenfunctions of the dense map
+TIME = 3e-3  # of the diffusion distance that the solver compares, in units of the area
 ITERATIONS = 20
 APART = 0.1  # mean gap, in the same distances, below which two maps are one
 
@@ -62,20 +64,24 @@ def proposals(source: Surface, target: Surface, starts: Sequence[Start], sense: 
         return Hypothesis(images, both, evidence(source, target, both, samples, images))
 
     views = zip(source.views, target.views, strict=True)
-    rough = [images for pair in views for images in hypotheses(SampledPair.of(*pair), starts, PROPOSED)]
+    rough = [images for pair in views for images in hypotheses(SampledPair.of(*pair, sense), starts, PROPOSED)]
     begun = [weighed(images, FIRST) for images in rough]
-    best = sorted(begun, key=lambda h: h.evidence.loss(sense))[:GONE_ON]
     mirrored = min(begun, key=lambda h: h.evidence.loss(-sense))
+    if sense != 0 and mirrored.evidence.loss(-sense) < min(h.evidence.loss(sense) for h in begun):
+        reflection = mirror(source, source.regular)
+        if reflection is not None:  # the partner of the mirrored map, which no start may have found
+            begun.append(weighed(mirrored.images[reflection], FIRST))
+    best = sorted(begun, key=lambda h: h.evidence.loss(sense))[:GONE_ON]
     for hypothesis in best if any(h is mirrored for h in best) else [*best, mirrored]:
         yield weighed(hypothesis.images, REST)
 
 
 def proposals_in(
-    source: Surface, target: Surface, views: tuple[View, View], starts: Sequence[Start]
+    source: Surface, target: Surface, views: tuple[View, View], starts: Sequence[Start], sense: int
 ) -> Iterator[Hypothesis]:
     """Maps from starts in one given metric, refined in the same."""
     samples = views[0].samples(SAMPLES)
-    for rough in hypotheses(SampledPair.of(*views), starts, 2 * PROPOSED):
+    for rough in hypotheses(SampledPair.of(*views, sense), starts, 2 * PROPOSED):
         images = upsampled(*views, rough)
         yield Hypothesis(images, views, evidence(source, target, views, samples, images))
 
@@ -99,11 +105,13 @@ def embed(
 ) -> Hypothesis:
     """The hypothesis after generalised multidimensional scaling of `count` samples, extended to every vertex.
 
-    Distances are commute times (3.2) in the views of the hypothesis, unless others are given.
+    Distances are diffusion distances (3.1) in the views of the hypothesis, unless others are given.
     """
     ours, theirs = hypothesis.views
     k = min(FUNCTIONS, ours.functions.shape[1], theirs.functions.shape[1])
-    here, there = (ours.distance(k), theirs.distance(k)) if distances is None else distances
+    if distances is None:
+        distances = DiffusionDistance(ours.spectrum, TIME), DiffusionDistance(theirs.spectrum, TIME)
+    here, there = distances
     samples = ours.samples(count)
     problem = Problem(here, SurfacePoints.at_vertices(source.mesh, samples), there)
     start = SurfacePoints.at_vertices(target.mesh, hypothesis.images[samples])

@@ -14,6 +14,7 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 FUNCTIONS = 40
+CLEAR = 0.5  # orientation score beyond which only the noise of the map speaks
 LEAST = 1e-6  # residuals below this are rounding
 
 
@@ -35,12 +36,13 @@ class Evidence:
         """Minus the log-likelihood up to a constant, with the spread of each residual at its best value.
 
         A Gaussian residual of spread s contributes log s: the relative misfit of distances, the unexplained part of
-        the curvature sqrt(1 - r^2), the share of the area turned over, and the stretch sqrt(energy). `sense` is 1
-        when orientation is to be kept, -1 when it is to be reversed, 0 when either will do.
+        the curvature sqrt(1 - r^2), counted twice as it tells apart what distances can not, the share of the area
+        turned over (half of it at least), and the stretch sqrt(energy). `sense` is 1 when orientation is to be kept,
+        -1 when it is to be reversed, 0 when either will do.
         """
         orientation = abs(self.orientation) if sense == 0 else sense * self.orientation
-        unexplained = np.sqrt(1 - np.clip(self.bend, 0.0, 1.0) ** 2)
-        spreads = (self.stress, unexplained, 1 - orientation, np.sqrt(self.energy))
+        unexplained = 1 - np.clip(self.bend, 0.0, 1.0) ** 2
+        spreads = (self.stress, unexplained, 1 - min(orientation, CLEAR), np.sqrt(self.energy))
         return float(sum(np.log(max(spread, LEAST)) for spread in spreads))
 
 

@@ -68,14 +68,16 @@ def match(  # noqa: PLR0913 - the signature is a promise
     else:
         given = distance(ours.mesh), distance(theirs.mesh)
         views = view_of(given[0], ours), view_of(given[1], theirs)
-        found = proposals_in(ours, theirs, views, starts)
-    best: list[Hypothesis] = []
+        found = proposals_in(ours, theirs, views, starts, sense)
+    proposed: list[Hypothesis] = []
     for i, hypothesis in enumerate(found):
-        report("refining", 0.1 + 0.6 * min(i / 8, 1))
-        best = distinct([*best, hypothesis], EMBEDDED, sense)
+        report("refining", 0.5 + 0.25 * min(i / 8, 1))
+        proposed.append(hypothesis)
+    chosen = distinct(proposed, EMBEDDED, sense)
+    chosen += [h for h in distinct(proposed, 1, -sense) if h not in chosen]  # the mirrored answer, to show
     placed = []
-    for i, hypothesis in enumerate(best):
-        report("embedding", 0.7 + 0.25 * i / len(best))
+    for i, hypothesis in enumerate(chosen):
+        report("embedding", 0.75 + 0.2 * i / len(chosen))
         placed.append(embed(ours, theirs, hypothesis, loss, count, given))
     placed.sort(key=lambda h: h.evidence.loss(sense))
 

@@ -32,6 +32,7 @@ FEWEST_VERTICES = 12  # below this there are not enough eigenfunctions to start 
 EIGENFUNCTIONS = 100
 ENOUGH_EIGENFUNCTIONS = 30
 SMOOTHING = 2e-2  # of the curvature: the starts want its large features, not its details
+DETAIL = 1e-3  # smoothing of the mean curvature that tells the chest from the back
 EXPONENTS = (1.0, 0.5)  # of |K|, beside 0: what suits parts that grew much, a little, and not at all
 SAMPLING_FUNCTIONS = 20  # of a commute-time distance, for choosing samples: the rest does not move them much
 
@@ -137,7 +138,7 @@ class Surface:
     @functools.cached_property
     def bend(self) -> Array:
         """Mean curvature (n,), squashed to [-1, 1] so that finger tips do not outvote the rest."""
-        curvature = mean_curvature(self.mesh)
+        curvature = mean_curvature(self.mesh, DETAIL)
         typical = np.median(np.abs(curvature[self.regular.usable]))
         return np.tanh(curvature / typical) if typical > 0 else np.zeros_like(curvature)
 

@@ -28,18 +28,20 @@ FUNCTIONS = 40
 class SampledPair:
     """Two views, each with its farthest points: `source_samples` (p,) are placed on `target_samples` (q,).
 
-    A sample map is an index array (p,) into `target_samples`.
+    A sample map is an index array (p,) into `target_samples`. `sense` is 1 where maps are to keep orientation, -1 where
+    they are to reverse it, 0 where either will do.
     """
 
     source: View
     target: View
     source_samples: Index
     target_samples: Index
+    sense: int = 1
 
     @classmethod
-    def of(cls, source: View, target: View) -> SampledPair:
+    def of(cls, source: View, target: View, sense: int = 1) -> SampledPair:
         """The pair with the usual numbers of samples."""
-        return cls(source, target, source.samples(SOURCE_SAMPLES), target.samples(TARGET_SAMPLES))
+        return cls(source, target, source.samples(SOURCE_SAMPLES), target.samples(TARGET_SAMPLES), sense)
 
     @functools.cached_property
     def source_rows(self) -> Array:
@@ -56,7 +58,8 @@ class SampledPair:
         """Forms of the source, scaled and rooted, of the target, and the scale of the source's."""
         here = _signed_root(orientation_forms(self.source, self.source_samples))
         scale = FORM_WEIGHT / np.maximum(np.sqrt((here**2).mean(axis=0)), np.finfo(float).tiny)
-        return here * scale, orientation_forms(self.target, self.target_samples), scale
+        there = self.sense * orientation_forms(self.target, self.target_samples)
+        return here * scale * abs(self.sense), there, scale
 
     @functools.cached_property
     def _inverses(self) -> dict[int, Array]:

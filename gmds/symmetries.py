@@ -1,0 +1,33 @@
+"""Self-maps of a surface that reverse its orientation: nearly every animal has one."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gmds.initialization import eigenfunction_signs
+from gmds.orientation import vertex_map_orientation
+from gmds.surface import Surface, View
+from gmds.upsampling import SampledPair
+
+Index = NDArray[np.int64]
+
+MOST_STRESS = 0.2  # relative: above, a self-map is no symmetry
+REVERSED = -0.3  # orientation score below which a self-map counts as reversing
+
+
+def mirror(surface: Surface, view: View) -> Index | None:
+    """The best orientation-reversing self-map (n,) of a surface in one of its views; None when it has none.
+
+    In the eigenfunctions of a symmetric surface a symmetry is a diagonal of signs (Ovsjanikov, Sun, Guibas 2008), so
+    all signs of the first few are tried and refined.
+    """
+    pair = SampledPair.of(view, view, -1)
+    maps = [pair.refined(images) for images in eigenfunction_signs(pair)]
+    for i in np.argsort([pair.stress(images) for images in maps], kind="stable"):
+        if pair.stress(maps[i]) > MOST_STRESS:
+            return None
+        images = pair.dense(maps[i])
+        if vertex_map_orientation(surface.mesh, surface.mesh, images) < REVERSED:
+            return images
+    return None
