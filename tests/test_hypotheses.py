@@ -1,0 +1,84 @@
+"""From many starts to a few distinct maps."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+from matched import animal, bumpy, permuted, surface
+from numpy.typing import NDArray
+
+from gmds.hypotheses import DISTINCT, hypotheses
+from gmds.initialization import ALL
+from gmds.surface import measure
+from gmds.upsampling import SampledPair
+
+Index = NDArray[np.int64]
+
+
+def dense_gap(pair: SampledPair, images: Index, others: Index) -> float:
+    e = pair.target.embedding
+    return float(np.linalg.norm(e[images] - e[others], axis=1).mean() / pair.source_distances.mean())
+
+
+@pytest.fixture(scope="module")
+def pair() -> SampledPair:
+    view = surface(animal()).regular
+    return SampledPair.of(view, view)
+
+
+@pytest.fixture(scope="module")
+def found(pair: SampledPair) -> list[Index]:
+    return hypotheses(pair, ALL, 6)
+
+
+def test_the_best_map_of_a_surface_to_itself_is_the_identity_or_the_mirror(
+    pair: SampledPair, found: list[Index]
+) -> None:
+    same = np.arange(animal().n_vertices)
+    gaps = [dense_gap(pair, images, same) for images in found]
+    assert min(gaps[:2]) < 0.02
+
+
+def test_maps_are_whole_distinct_and_not_too_many(pair: SampledPair, found: list[Index]) -> None:
+    assert 1 <= len(found) <= 6
+    for images in found:
+        assert images.shape == (animal().n_vertices,)
+        assert images.min() >= 0 and images.max() < animal().n_vertices
+    for one, other in combinations(found, 2):
+        assert dense_gap(pair, one, other) > 0.8 * DISTINCT
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_fewer_maps_are_the_first_of_more(pair: SampledPair, found: list[Index], count: int) -> None:
+    fewer = hypotheses(pair, ALL, count)
+    assert len(fewer) == min(count, len(found))
+    assert all(np.array_equal(one, other) for one, other in zip(fewer, found, strict=False))
+
+
+def test_the_same_start_twice_is_one_map() -> None:
+    view = surface(bumpy()).regular
+    pair = SampledPair.of(view, view)
+    same = np.arange(len(pair.source_samples))
+    assert len(hypotheses(pair, [lambda _: [same, same.copy()], lambda _: [same]], 5)) == 1
+
+
+def test_a_good_start_comes_before_a_bad_one() -> None:
+    view = surface(bumpy()).regular
+    pair = SampledPair.of(view, view)
+    same = np.arange(len(pair.source_samples))
+    maps = hypotheses(pair, [lambda _: [np.zeros_like(same), np.roll(same, 40)], lambda _: [same]], 5)
+    assert np.array_equal(maps[0], np.arange(bumpy().n_vertices))
+
+
+def test_no_start_is_no_map() -> None:
+    view = surface(bumpy()).regular
+    assert hypotheses(SampledPair.of(view, view), [lambda _: []], 5) == []
+
+
+def test_maps_follow_a_renumbering() -> None:
+    mesh, place = permuted(bumpy())
+    ours, theirs = surface(bumpy()).regular, measure(mesh).regular
+    best = hypotheses(SampledPair.of(ours, theirs), ALL, 1)[0]
+    assert (best == place).mean() > 0.9
