@@ -41,7 +41,7 @@ class Spreading(Protocol):
 
 
 class Cells(NamedTuple):
-    """Samples (count,), and for every vertex (n,) the index of the nearest one, -1 where unreachable, and its distance."""
+    """Samples (count,), and for every vertex (n,) the index of the nearest one (-1 if unreachable) and its distance."""
 
     samples: Integers
     nearest: Integers
