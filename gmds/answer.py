@@ -18,7 +18,8 @@ Array = NDArray[np.float64]
 
 POOR = 0.12  # relative stress above which distances count as badly kept
 BENT = 0.35  # correlation of curvature below which they do as well
-CLOSE = 0.25  # difference of log-likelihood, a residual, below which another map is as good
+CLOSE = 0.3  # difference of log-likelihood, a residual, below which another map is as good
+DIFFERENT = 0.1  # mean distance between the images of two maps, over root area, that makes them two answers
 JUDGES = 100  # samples that distortion is measured against
 
 
@@ -71,12 +72,21 @@ def _distortion(source: Surface, hypothesis: Hypothesis) -> Array:
 
 
 def _status(placed: Sequence[Hypothesis], sense: int) -> MatchStatus:
+    """POOR where distances or curvature are badly kept, AMBIGUOUS where a quite different map is nearly as good."""
     best = placed[0].evidence
     if best.stress > POOR or best.bend < BENT:
         return MatchStatus.POOR
-    if len(placed) > 1 and placed[1].evidence.loss(sense) - best.loss(sense) < CLOSE:
-        return MatchStatus.AMBIGUOUS
+    for other in placed[1:]:
+        close = other.evidence.loss(sense) - best.loss(sense) < CLOSE
+        if close and _gap(placed[0], other) > DIFFERENT:
+            return MatchStatus.AMBIGUOUS
     return MatchStatus.GOOD
+
+
+def _gap(one: Hypothesis, other: Hypothesis) -> float:
+    """Mean distance in space between the images of two maps, over the square root of the target's area."""
+    mesh = one.views[1].mesh
+    return float(np.linalg.norm(mesh.vertices[one.images] - mesh.vertices[other.images], axis=1).mean())
 
 
 def _between(rows: Array, others: Array) -> Array:

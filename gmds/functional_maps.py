@@ -19,7 +19,7 @@ def functional_map(source_rows: Array, target_rows: Array) -> Array:
     target function j, pulled back by the map, in source functions. A source point with row x then corresponds to the
     target point whose row y makes C y nearest to x; the other way round would want C orthogonal.
     """
-    return np.linalg.lstsq(source_rows, target_rows, rcond=None)[0]
+    return np.asarray(np.linalg.lstsq(source_rows, target_rows, rcond=None)[0], dtype=np.float64)
 
 
 def nearest_rows(queries: Array, rows: Array) -> Index:

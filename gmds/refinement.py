@@ -44,7 +44,8 @@ class Refiner:
     def _carriers(self) -> tuple[Index, Array]:
         """Farthest points of the source, and the area nearest to each."""
         cells, used = self.source.regular.cells(CARRIERS), self.source.regular.usable
-        return cells.samples, np.bincount(cells.nearest[used], self.source.areas[used], len(cells.samples))
+        share = np.bincount(cells.nearest[used], self.source.areas[used], len(cells.samples))
+        return cells.samples, share.astype(np.float64)
 
     @functools.cached_property
     def _goals(self) -> Index:
@@ -61,7 +62,7 @@ class Refiner:
         sent, matrix = images[carriers], np.eye(1)
         for number in rounds:
             time, sizes = ROUNDS[number]
-            amounts = np.bincount(sent, share, minlength=len(view.functions))
+            amounts = np.bincount(sent, share, minlength=len(view.functions)).astype(np.float64)
             view = self.factors.view(self.factors.density(amounts, time), sizes[-1])
             steps = _available(sizes, ours, view)
             fitted, rows = slice(FITTED), ours.functions[carriers]
@@ -74,9 +75,7 @@ def upsampled(source: View, target: View, images: Index) -> Index:
     """A map (n,) to target vertices refined by spectral upsampling between two given views."""
     samples = source.samples(FITTED)
     steps = _available(LADDER, source, target)
-    matrix, _ = spectral_upsampling(
-        source.functions[samples], target.functions, images[samples], steps, target.usable
-    )
+    matrix, _ = spectral_upsampling(source.functions[samples], target.functions, images[samples], steps, target.usable)
     return _images(source.functions, target, matrix, target.usable)
 
 

@@ -65,7 +65,7 @@ class SampledPair:
     def _inverses(self) -> dict[int, Array]:
         """Pseudo-inverses of the source rows, shared by all starts."""
         sizes = [k for k in COARSE if k <= self.source_rows.shape[1]]
-        return {k: np.linalg.pinv(self.source_rows[:, :k]) for k in sizes}
+        return {k: np.asarray(np.linalg.pinv(self.source_rows[:, :k]), dtype=np.float64) for k in sizes}
 
     def matrix(self, images: Index, k: int) -> Array:
         """The functional map (k, k) of a sample map."""
@@ -78,9 +78,7 @@ class SampledPair:
         k = len(matrix)
         ours, theirs, scale = self._forms
         queries = np.hstack([self.source_rows[:, :k], ours])
-        rows = np.hstack(
-            [self.target_rows[:, :k] @ matrix.T, _signed_root(pulled_back_forms(theirs, matrix)) * scale]
-        )
+        rows = np.hstack([self.target_rows[:, :k] @ matrix.T, _signed_root(pulled_back_forms(theirs, matrix)) * scale])
         return nearest_rows(queries, rows)
 
     def refined(self, images: Index, sizes: Iterable[int] = COARSE) -> Index:
