@@ -103,7 +103,7 @@ class View:
 class Surface:
     """The largest part of a mesh, with all vertices kept, brought to unit area and oriented.
 
-    `mesh` has the vertices of `original`, moved and scaled, and the faces `face_index` of it.
+    `mesh` has the vertices of `original`, moved and scaled, and the faces `face_index` of it, the largest first.
     """
 
     original: Mesh
@@ -147,8 +147,10 @@ def measure(mesh: Mesh) -> Surface:
     """The largest part of `mesh`, ready for matching. Raises `TooFewVertices` (E113)."""
     label = vertex_components(mesh)
     of_face = label[mesh.faces[:, 0]]
-    size = np.bincount(of_face, areas(squared_lengths(mesh.vertices, mesh.faces)))
+    area = areas(squared_lengths(mesh.vertices, mesh.faces))
+    size = np.bincount(of_face, area)
     kept = np.flatnonzero(of_face == size.argmax())
+    kept = kept[np.argsort(-area[kept], kind="stable")]  # the order of the faces in the file is to have no say
     used = np.flatnonzero(label == size.argmax())
     if len(used) < FEWEST_VERTICES:
         raise TooFewVertices(
