@@ -32,7 +32,7 @@ def extend(source: View, target: View, samples: Index, placed: SurfacePoints, co
 def closest_points(target: View, rows: Array, queries: Array) -> SurfacePoints:
     """Points of the target's surface, embedded by `rows` (n, k) linear on faces, closest to `queries` (p, k)."""
     usable = target.usable
-    guess = usable[nearest_rows(queries, rows[usable])]
+    guess = usable[nearest_rows(queries, rows[usable], np.float64)]
     faces = target.mesh.faces
     ring = np.argsort(faces.ravel(), kind="stable") // 3
     start = np.concatenate([[0], np.cumsum(np.bincount(faces.ravel(), minlength=target.mesh.n_vertices))])
