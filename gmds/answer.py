@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from geodesics import SurfacePoints
-from gmds.candidates import FUNCTIONS, Hypothesis
+from gmds.candidates import FUNCTIONS, Hypothesis, SurfacePair
 from gmds.correspondence import Candidate, Correspondence, MatchStatus
 from gmds.surface import Surface
 
@@ -23,10 +23,9 @@ DIFFERENT = 0.1  # mean distance between the images of two maps, over root area,
 JUDGES = 100  # samples that distortion is measured against
 
 
-def answer(
-    source: Surface, target: Surface, placed: Sequence[Hypothesis], sense: int, meta: Mapping[str, Any]
-) -> Correspondence:
+def answer(pair: SurfacePair, placed: Sequence[Hypothesis], meta: Mapping[str, Any]) -> Correspondence:
     """The best map as a `Correspondence` between the original meshes, the others as its candidates."""
+    source, target = pair.source, pair.target
     best = placed[0]
     valid = source.regular.spectrum.mass > 0
     candidates = tuple(
@@ -38,7 +37,7 @@ def answer(
         points=_original(source, target, best),
         valid=valid,
         distortion=_distortion(source, best),
-        status=_status(placed, sense),
+        status=_status(placed, pair.sense),
         candidates=candidates,
         meta={**meta, "evidence": vars(best.evidence)},
     )

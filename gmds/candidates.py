@@ -14,7 +14,7 @@ from gmds.extension import extend
 from gmds.hypotheses import hypotheses
 from gmds.losses import Loss
 from gmds.pairwise import Distance
-from gmds.problem import Problem
+from gmds.problem import Problem, joined
 from gmds.refinement import ROUNDS, Refiner, upsampled
 from gmds.solver import Solution, solve
 from gmds.surface import Surface, View
@@ -24,6 +24,7 @@ from gmds.upsampling import SampledPair
 Index = NDArray[np.int64]
 Start = Callable[[SampledPair], list[Index]]
 Measured = tuple[Distance, Distance]
+Known = tuple[Index, Index]
 
 PROPOSED = 6  # maps that each metric proposes
 GONE_ON = 6  # maps that go through all rounds of alignment
@@ -32,7 +33,37 @@ SAMPLES = 500  # that carry a map through spectral upsampling
 FUNCTIONS = 60  # eigenfunctions of the dense map
 TIME = 3e-3  # of the diffusion distance that the solver compares, in units of the area
 ITERATIONS = 20
+WEIGHT = 10  # samples that a landmark is worth
 APART = 0.1  # mean gap, in the same distances, below which two maps are one
+
+
+@dataclass(frozen=True, eq=False)
+class SurfacePair:
+    """What is to be matched: two surfaces, the orientation wanted (`sense` 1 kept, -1 reversed, 0 either), landmarks.
+
+    `known`: vertices of the source and those of the target they are known to correspond to, or None.
+    """
+
+    source: Surface
+    target: Surface
+    sense: int = 1
+    known: Known | None = None
+
+    def weighed(self, views: tuple[View, View], samples: Index, images: Index) -> Evidence:
+        """What speaks for a map (n,) to target vertices, with how far it misses the landmarks."""
+        found = evidence(self.source, self.target, views, samples, images)
+        if self.known is None:
+            return found
+        place = self.target.mesh.vertices
+        miss = np.linalg.norm(place[images[self.known[0]]] - place[self.known[1]], axis=1)
+        return replace(found, missed=float(miss.mean()))
+
+    def fixed(self, samples: Index, points: SurfacePoints) -> tuple[Index, SurfacePoints]:
+        """Placed samples with the landmarks added, often enough that the extension heeds them."""
+        if self.known is None:
+            return samples, points
+        ours, theirs = (np.repeat(side, WEIGHT) for side in self.known)
+        return np.concatenate([samples, ours]), joined(points, SurfacePoints.at_vertices(points.mesh, theirs))
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,40 +81,39 @@ class Hypothesis:
     solution: Solution | None = None
 
 
-def proposals(source: Surface, target: Surface, starts: Sequence[Start], sense: int) -> Iterator[Hypothesis]:
+def proposals(pair: SurfacePair, starts: Sequence[Start]) -> Iterator[Hypothesis]:
     """Maps from starts in each metric of the family |K|^a g, each then aligned by its own factor.
 
     All go through the first round of alignment; the better ones, and the best of the other orientation, through the
     others.
     """
+    source, target, sense = pair.source, pair.target, pair.sense
     refiner, samples = Refiner(source, target), source.regular.samples(SAMPLES)
 
-    def weighed(images: Index, rounds: Sequence[int]) -> Hypothesis:
+    def aligned(images: Index, rounds: Sequence[int]) -> Hypothesis:
         images, view = refiner.aligned(images, rounds)
-        both = source.regular, view
-        return Hypothesis(images, both, evidence(source, target, both, samples, images))
+        views = source.regular, view
+        return Hypothesis(images, views, pair.weighed(views, samples, images))
 
-    views = zip(source.views, target.views, strict=True)
-    rough = [images for pair in views for images in hypotheses(SampledPair.of(*pair, sense), starts, PROPOSED)]
-    begun = [weighed(images, FIRST) for images in rough]
+    family = zip(source.views, target.views, strict=True)
+    rough = [images for views in family for images in hypotheses(SampledPair.of(*views, sense), starts, PROPOSED)]
+    begun = [aligned(images, FIRST) for images in rough]
     mirrored = min(begun, key=lambda h: h.evidence.loss(-sense))
     if sense != 0 and mirrored.evidence.loss(-sense) < min(h.evidence.loss(sense) for h in begun):
         reflection = mirror(source, source.regular)
         if reflection is not None:  # the partner of the mirrored map, which no start may have found
-            begun.append(weighed(mirrored.images[reflection], FIRST))
+            begun.append(aligned(mirrored.images[reflection], FIRST))
     best = sorted(begun, key=lambda h: h.evidence.loss(sense))[:GONE_ON]
     for hypothesis in best if any(h is mirrored for h in best) else [*best, mirrored]:
-        yield weighed(hypothesis.images, REST)
+        yield aligned(hypothesis.images, REST)
 
 
-def proposals_in(
-    source: Surface, target: Surface, views: tuple[View, View], starts: Sequence[Start], sense: int
-) -> Iterator[Hypothesis]:
+def proposals_in(pair: SurfacePair, views: tuple[View, View], starts: Sequence[Start]) -> Iterator[Hypothesis]:
     """Maps from starts in one given metric, refined in the same."""
     samples = views[0].samples(SAMPLES)
-    for rough in hypotheses(SampledPair.of(*views, sense), starts, 2 * PROPOSED):
+    for rough in hypotheses(SampledPair.of(*views, pair.sense), starts, 2 * PROPOSED):
         images = upsampled(*views, rough)
-        yield Hypothesis(images, views, evidence(source, target, views, samples, images))
+        yield Hypothesis(images, views, pair.weighed(views, samples, images))
 
 
 def distinct(found: Sequence[Hypothesis], count: int, sense: int) -> list[Hypothesis]:
@@ -96,12 +126,7 @@ def distinct(found: Sequence[Hypothesis], count: int, sense: int) -> list[Hypoth
 
 
 def embed(
-    source: Surface,
-    target: Surface,
-    hypothesis: Hypothesis,
-    loss: Loss,
-    count: int,
-    distances: Measured | None = None,
+    pair: SurfacePair, hypothesis: Hypothesis, loss: Loss, count: int, distances: Measured | None = None
 ) -> Hypothesis:
     """The hypothesis after generalised multidimensional scaling of `count` samples, extended to every vertex.
 
@@ -110,15 +135,16 @@ def embed(
     ours, theirs = hypothesis.views
     k = min(FUNCTIONS, ours.functions.shape[1], theirs.functions.shape[1])
     if distances is None:
-        distances = DiffusionDistance(ours.spectrum, TIME), DiffusionDistance(theirs.spectrum, TIME)
+        both = (ours.first(k), theirs.first(k))  # as many in one as in the other, or equal surfaces would differ
+        distances = DiffusionDistance(both[0].spectrum, TIME), DiffusionDistance(both[1].spectrum, TIME)
     here, there = distances
     samples = ours.samples(count)
-    problem = Problem(here, SurfacePoints.at_vertices(source.mesh, samples), there)
-    start = SurfacePoints.at_vertices(target.mesh, hypothesis.images[samples])
+    problem = Problem(here, SurfacePoints.at_vertices(pair.source.mesh, samples), there)
+    start = SurfacePoints.at_vertices(pair.target.mesh, hypothesis.images[samples])
     solution = solve(problem, start, loss, max_iterations=ITERATIONS)
-    points = extend(ours, theirs, samples, solution.points, k)
+    points = extend(ours, theirs, *pair.fixed(samples, solution.points), k)
     images = points.nearest_vertices()
-    weighed = evidence(source, target, hypothesis.views, samples, images)
+    weighed = pair.weighed(hypothesis.views, samples, images)
     return replace(hypothesis, images=images, points=points, solution=solution, evidence=weighed)
 
 

@@ -15,6 +15,7 @@ Index = NDArray[np.int64]
 
 FUNCTIONS = 40
 CLEAR = 0.5  # orientation score beyond which only the noise of the map speaks
+HIT = 0.02  # square roots of the area within which a landmark counts as hit
 LEAST = 1e-6  # residuals below this are rounding
 
 
@@ -24,13 +25,15 @@ class Evidence:
 
     `stress`: mean |d_S - d_Q| between samples over mean d_S; `bend`: correlation of squashed mean curvature, which
     knows the chest from the back; `orientation`: signed share of the area that keeps its orientation; `energy`:
-    Dirichlet energy of the map over that of the identity, which knows torn maps from whole ones.
+    Dirichlet energy of the map over that of the identity, which knows torn maps from whole ones; `missed`: mean
+    distance of the landmarks, if any, from where they belong, in square roots of the area.
     """
 
     stress: float
     bend: float
     orientation: float
     energy: float
+    missed: float = 0.0
 
     def loss(self, sense: int) -> float:
         """Minus the log-likelihood up to a constant, with the spread of each residual at its best value.
@@ -43,7 +46,7 @@ class Evidence:
         orientation = abs(self.orientation) if sense == 0 else sense * self.orientation
         unexplained = 1 - np.clip(self.bend, 0.0, 1.0) ** 2
         spreads = (self.stress, unexplained, 1 - min(orientation, CLEAR), np.sqrt(self.energy))
-        return float(sum(np.log(max(spread, LEAST)) for spread in spreads))
+        return float(sum(np.log(max(spread, LEAST)) for spread in spreads) + np.log(1 + self.missed / HIT))
 
 
 def evidence(source: Surface, target: Surface, views: tuple[View, View], samples: Index, images: Index) -> Evidence:

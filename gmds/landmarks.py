@@ -37,6 +37,12 @@ def check_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> tuple[Surface
     return place_landmarks(landmarks, source, target)[:2]
 
 
+def landmark_vertices(landmarks: Any, source: Mesh, target: Mesh) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """The vertices nearest to the landmarks on both sides, (k,) each; raises as `check_landmarks`."""
+    on_source, on_target = check_landmarks(landmarks, source, target)
+    return on_source.nearest_vertices(), on_target.nearest_vertices()
+
+
 def place_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> tuple[SurfacePoints, SurfacePoints, list[Note]]:
     """As `check_landmarks`, with a note (W301) on positions that were moved to the surface, and how far."""
     notes: list[Note] = []

@@ -9,16 +9,18 @@ from typing import Any, Literal
 from geodesics import Mesh
 from geodesics.threads import on_one_blas_thread
 from gmds import initialization
-from gmds._validation import check_landmarks, check_sample_count, suggest_keywords
+from gmds._validation import check_sample_count, suggest_keywords
 from gmds.answer import answer
-from gmds.candidates import Hypothesis, Start, distinct, embed, proposals, proposals_in
+from gmds.candidates import Hypothesis, Start, SurfacePair, distinct, embed, proposals, proposals_in
 from gmds.correspondence import Correspondence
 from gmds.initialization.landmarks import landmarks as from_landmarks
+from gmds.landmarks import landmark_vertices
 from gmds.losses import LeastSquares, Loss
 from gmds.pairwise import Distance
 from gmds.surface import measure, view_of
 
 SAMPLES = 300
+ENOUGH = 3  # landmarks that need no other starts
 EMBEDDED = 3  # maps whose samples are placed by the solver
 SENSE = {"preserve": 1, "reverse": -1, "any": 0}
 
@@ -53,22 +55,21 @@ def match(  # noqa: PLR0913 - the signature is a promise
         raise ValueError(f"orientation must be 'preserve', 'reverse' or 'any', not {orientation!r}")
     source, target = Mesh.from_object(source), Mesh.from_object(target)
     sense, loss = SENSE[orientation], LeastSquares() if loss is None else loss
-    known = None if landmarks is None else check_landmarks(landmarks, source, target)
+    known = None if landmarks is None else landmark_vertices(landmarks, source, target)
     report = progress or (lambda stage, fraction: None)
     started = time.perf_counter()
 
     report("measuring", 0.0)
-    ours, theirs = measure(source), measure(target)
+    pair = SurfacePair(measure(source), measure(target), sense, known)
     count = SAMPLES if n_samples is None else check_sample_count(n_samples, source)
     starts: list[Start] = list(initialization.ALL)
     if known is not None:
-        starts = [from_landmarks(*(points.nearest_vertices() for points in known))]
+        starts = [from_landmarks(*known), *(starts if len(known[0]) < ENOUGH else ())]
     if distance is None:
-        given, found = None, proposals(ours, theirs, starts, sense)
+        given, found = None, proposals(pair, starts)
     else:
-        given = distance(ours.mesh), distance(theirs.mesh)
-        views = view_of(given[0], ours), view_of(given[1], theirs)
-        found = proposals_in(ours, theirs, views, starts, sense)
+        given = distance(pair.source.mesh), distance(pair.target.mesh)
+        found = proposals_in(pair, (view_of(given[0], pair.source), view_of(given[1], pair.target)), starts)
     proposed: list[Hypothesis] = []
     for i, hypothesis in enumerate(found):
         report("refining", 0.5 + 0.25 * min(i / 8, 1))
@@ -78,10 +79,10 @@ def match(  # noqa: PLR0913 - the signature is a promise
     placed = []
     for i, hypothesis in enumerate(chosen):
         report("embedding", 0.75 + 0.2 * i / len(chosen))
-        placed.append(embed(ours, theirs, hypothesis, loss, count, given))
+        placed.append(embed(pair, hypothesis, loss, count, given))
     placed.sort(key=lambda h: h.evidence.loss(sense))
 
     settings = {"n_samples": count, "loss": repr(loss), "orientation": orientation, "rng": rng}
     seconds = round(time.perf_counter() - started, 3)
     report("done", 1.0)
-    return answer(ours, theirs, placed, sense, {"parameters": settings, "seconds": seconds})
+    return answer(pair, placed, {"parameters": settings, "seconds": seconds})

@@ -75,13 +75,15 @@ class View:
         """Vertices that belong to the surface."""
         return np.flatnonzero(self.spectrum.mass > 0)
 
+    def first(self, count: int) -> View:
+        """The view with its first `count` eigenfunctions alone."""
+        spectrum = self.spectrum
+        values, functions = spectrum.eigenvalues[:count], spectrum.eigenfunctions[:, :count]
+        return View(self.mesh, Spectrum(self.mesh, spectrum.mass, values, functions))
+
     def distance(self, count: int) -> CommuteTimeDistance:
         """The commute-time distance (3.2) by the first `count` eigenfunctions."""
-        spectrum = self.spectrum
-        kept = slice(0, count)
-        return CommuteTimeDistance(
-            Spectrum(self.mesh, spectrum.mass, spectrum.eigenvalues[kept], spectrum.eigenfunctions[:, kept])
-        )
+        return CommuteTimeDistance(self.first(count).spectrum)
 
     @functools.cached_property
     def embedding(self) -> Array:
