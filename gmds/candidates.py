@@ -85,7 +85,7 @@ def proposals(pair: SurfacePair, starts: Sequence[Start]) -> Iterator[Hypothesis
     """Maps from starts in each metric of the family |K|^a g, each then aligned by its own factor.
 
     All go through the first round of alignment; the better ones, and the best of the other orientation, through the
-    others.
+    others; the best also comes refined in the metric of space.
     """
     source, target, sense = pair.source, pair.target, pair.sense
     refiner, samples = Refiner(source, target), source.regular.samples(SAMPLES)
@@ -104,8 +104,13 @@ def proposals(pair: SurfacePair, starts: Sequence[Start]) -> Iterator[Hypothesis
         if reflection is not None:  # the partner of the mirrored map, which no start may have found
             begun.append(aligned(mirrored.images[reflection], FIRST))
     best = sorted(begun, key=lambda h: h.evidence.loss(sense))[:GONE_ON]
+    done = []
     for hypothesis in best if any(h is mirrored for h in best) else [*best, mirrored]:
-        yield aligned(hypothesis.images, REST)
+        done.append(aligned(hypothesis.images, REST))
+        yield done[-1]
+    views = source.regular, target.regular  # an isometry needs no factor, and one that is nearly 1 costs precision
+    images = upsampled(*views, min(done, key=lambda h: h.evidence.loss(sense)).images)
+    yield Hypothesis(images, views, pair.weighed(views, samples, images))
 
 
 def proposals_in(pair: SurfacePair, views: tuple[View, View], starts: Sequence[Start]) -> Iterator[Hypothesis]:
