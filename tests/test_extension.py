@@ -109,7 +109,9 @@ def test_on_another_triangulation_the_extension_is_closer_than_any_vertices() ->
     mesh = shapes.bumpy_sphere(3)
     other, truth = remeshing(mesh, rng=1)
     source, target = measure(mesh), measure(other)
-    places = SurfacePoints(target.mesh, truth.face, truth.barycentric)
+    row = np.argsort(target.face_index)  # of each face of the other mesh, all of which belong to its surface
+    places = SurfacePoints(target.mesh, row[truth.face], truth.barycentric)
+    assert np.array_equal(target.mesh.faces[row], other.faces)
     ours, theirs = source.regular, target.regular
     samples = ours.samples(150)
     points = extend(ours, theirs, samples, places[samples], 40)
