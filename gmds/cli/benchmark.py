@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from gmds.cli.choices import chosen_distance, chosen_loss, distance_option, loss_option, metric_option
 from gmds.cli.group import UNFINISHED, Command
 from gmds.cli.output import json_option, note, progress_bar, seed_option
 
@@ -15,9 +16,22 @@ from gmds.cli.output import json_option, note, progress_bar, seed_option
 @click.option("--pairs", type=click.Path(path_type=Path), help="The pairs to run, instead of the published ones.")
 @click.option("--every", default=1, show_default=True, type=click.IntRange(min=1), help="Run every N-th pair only.")
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="Write the rows as CSV.")
+@metric_option
+@distance_option
+@loss_option
 @seed_option
 @json_option
-def command(dataset_dir: Path, pairs: Path | None, every: int, output: Path | None, seed: int, as_json: bool) -> None:
+def command(
+    dataset_dir: Path,
+    pairs: Path | None,
+    every: int,
+    output: Path | None,
+    metric: str | None,
+    distance: str | None,
+    loss: str | None,
+    seed: int,
+    as_json: bool,
+) -> None:
     """Match every pair of a benchmark folder and judge it against the truth.
 
     Every mesh is turned and resized at random first. A row says: mean error x100 (geodesic distance over the square
@@ -26,6 +40,7 @@ def command(dataset_dir: Path, pairs: Path | None, every: int, output: Path | No
 
     Known folders: remeshed FAUST and TOSCA (.vts truth), locally scaled pairs (pairs.json), SHREC'20 (.mat truth).
     """
+    import functools
     import json
     from dataclasses import asdict
 
@@ -33,12 +48,13 @@ def command(dataset_dir: Path, pairs: Path | None, every: int, output: Path | No
     from gmds.benchmarking import BenchmarkRow, benchmark, means, write_csv
     from gmds.datasets import dataset_pairs
 
+    matcher = functools.partial(match, distance=chosen_distance(metric, distance), loss=chosen_loss(loss))
     chosen = dataset_pairs(dataset_dir, pairs)[::every]
     rows: list[BenchmarkRow] = []
     if not as_json:
         click.echo(_line("pair", "direct", "sym", "best", "<0.10", "cover", "CPU s", "status"))
     with progress_bar("benchmark") as progress:
-        for row in benchmark(chosen, match, seed=seed):
+        for row in benchmark(chosen, matcher, seed=seed):
             rows.append(row)
             progress(row.pair, len(rows) / len(chosen))
             if not as_json:

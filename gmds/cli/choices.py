@@ -14,7 +14,7 @@ METRICS = ("embedded", "scale-invariant", "min-curvature", "equi-affine", "affin
 DISTANCES = ("biharmonic", "commute-time", "diffusion", "geodesic")
 LOSSES = ("least-squares", "huber", "minimax")
 EIGENPAIRS = 100
-DIFFUSION_TIME = 1.0  # in units of 1 / lambda_1
+DIFFUSION_TIME = 3e-3  # in units of the area; what match itself compares
 
 metric_option = click.option("--metric", type=click.Choice(METRICS), help="Metric in which distances are measured.")
 distance_option = click.option("--distance", type=click.Choice(DISTANCES), help="Distance that the map preserves.")
@@ -28,14 +28,14 @@ def chosen_distance(metric: str | None, distance: str | None) -> Callable[[Mesh]
     import geodesics
 
     measure = getattr(geodesics, (metric or "scale-invariant").replace("-", "_"))
-    kind = distance or "biharmonic"
+    kind = distance or "diffusion"
 
     def build(mesh: Mesh) -> Any:
         if kind == "geodesic":
             return geodesics.GeodesicDistance(measure(mesh))
         spectrum = geodesics.eigenpairs(measure(mesh), min(EIGENPAIRS, mesh.n_vertices - 1))
         if kind == "diffusion":
-            return geodesics.DiffusionDistance(spectrum, DIFFUSION_TIME / spectrum.eigenvalues[1])
+            return geodesics.DiffusionDistance(spectrum, DIFFUSION_TIME)
         return (
             geodesics.CommuteTimeDistance(spectrum)
             if kind == "commute-time"

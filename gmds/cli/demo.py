@@ -26,7 +26,7 @@ def command(output: Path, seed: int, as_json: bool) -> None:
 
     The shapes are an animal, and the same animal in another pose, with its head twice as big and triangulated anew.
     The error is the mean geodesic distance from the truth over the square root of the area, times 100. It is printed
-    for maps that preserve biharmonic distances in the metric of space ("regular") and in the scale-invariant metric,
+    for maps that preserve diffusion distances in the metric of space ("regular") and in the scale-invariant metric,
     and for what `match` does unless told otherwise: try both, and end in a metric of its own. The folder then holds
     the meshes, the truth, this last map, a page to turn it in a browser, and a picture.
     """
