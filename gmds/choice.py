@@ -69,11 +69,11 @@ def _edge_energy(source: Surface, rows: Array) -> float:
 
 
 def _correlation(x: Array, y: Array, weights: Array) -> float:
-    """Weighted correlation; 0 where either is constant."""
+    """Weighted correlation; 0 where one of them is constant, 1 where both are."""
     w = weights / weights.sum()
     x, y = x - w @ x, y - w @ y
-    size = np.sqrt((w @ x**2) * (w @ y**2))
-    return float(w @ (x * y) / size) if size > 0 else 0.0
+    square, other = w @ x**2, w @ y**2
+    return float(w @ (x * y) / np.sqrt(square * other)) if square * other > 0 else float(square == other)
 
 
 def _distances(rows: Array) -> Array:

@@ -33,6 +33,7 @@ EIGENFUNCTIONS = 100
 ENOUGH_EIGENFUNCTIONS = 30
 SMOOTHING = 2e-2  # of the curvature: the starts want its large features, not its details
 DETAIL = 1e-3  # smoothing of the mean curvature that tells the chest from the back
+FLAT = 1e-6  # mean curvature of a surface of unit area below which it is rounding
 EXPONENTS = (1.0, 0.5)  # of |K|, beside 0: what suits parts that grew much, a little, and not at all
 SAMPLING_FUNCTIONS = 20  # of a commute-time distance, for choosing samples: the rest does not move them much
 
@@ -142,7 +143,7 @@ class Surface:
         """Mean curvature (n,), squashed to [-1, 1] so that finger tips do not outvote the rest."""
         curvature = mean_curvature(self.mesh, DETAIL)
         typical = np.median(np.abs(curvature[self.regular.usable]))
-        return np.tanh(curvature / typical) if typical > 0 else np.zeros_like(curvature)
+        return np.tanh(curvature / typical) if typical > FLAT else np.zeros_like(curvature)
 
 
 def measure(mesh: Mesh) -> Surface:
