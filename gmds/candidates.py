@@ -8,12 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from geodesics import DiffusionDistance, SurfacePoints
+from geodesics import DiffusionDistance, Distance, SurfacePoints
 from gmds.choice import Evidence, evidence
 from gmds.extension import extend
 from gmds.hypotheses import hypotheses
 from gmds.losses import Loss
-from gmds.pairwise import Distance
 from gmds.problem import Problem, joined
 from gmds.refinement import ROUNDS, Refiner, upsampled
 from gmds.solver import Solution, solve
@@ -98,11 +97,8 @@ def proposals(pair: SurfacePair, starts: Sequence[Start]) -> Iterator[Hypothesis
     family = zip(source.views, target.views, strict=True)
     rough = [images for views in family for images in hypotheses(SampledPair.of(*views, sense), starts, PROPOSED)]
     begun = [aligned(images, FIRST) for images in rough]
+    begun += [aligned(images, FIRST) for images in unfound_partner(pair, begun)]
     mirrored = min(begun, key=lambda h: h.evidence.loss(-sense))
-    if sense != 0 and mirrored.evidence.loss(-sense) < min(h.evidence.loss(sense) for h in begun):
-        reflection = mirror(source, source.regular)
-        if reflection is not None:  # the partner of the mirrored map, which no start may have found
-            begun.append(aligned(mirrored.images[reflection], FIRST))
     best = sorted(begun, key=lambda h: h.evidence.loss(sense))[:GONE_ON]
     done = []
     for hypothesis in best if any(h is mirrored for h in best) else [*best, mirrored]:
@@ -116,9 +112,27 @@ def proposals(pair: SurfacePair, starts: Sequence[Start]) -> Iterator[Hypothesis
 def proposals_in(pair: SurfacePair, views: tuple[View, View], starts: Sequence[Start]) -> Iterator[Hypothesis]:
     """Maps from starts in one given metric, refined in the same."""
     samples = views[0].samples(SAMPLES)
-    for rough in hypotheses(SampledPair.of(*views, pair.sense), starts, 2 * PROPOSED):
-        images = upsampled(*views, rough)
-        yield Hypothesis(images, views, pair.weighed(views, samples, images))
+
+    def refined(images: Index) -> Hypothesis:
+        images = upsampled(*views, images)
+        return Hypothesis(images, views, pair.weighed(views, samples, images))
+
+    rough = hypotheses(SampledPair.of(*views, pair.sense), starts, 2 * PROPOSED)
+    done = [refined(images) for images in rough]
+    yield from done
+    yield from (refined(images) for images in unfound_partner(pair, done))
+
+
+def unfound_partner(pair: SurfacePair, found: Sequence[Hypothesis]) -> list[Index]:
+    """The partner of the best map of the wrong orientation, where that is better than all of the right one.
+
+    Composed with a reflection of the source it is of the right orientation, and as good; no start may have found it.
+    """
+    mirrored = min(found, key=lambda h: h.evidence.loss(-pair.sense))
+    if pair.sense == 0 or mirrored.evidence.loss(-pair.sense) >= min(h.evidence.loss(pair.sense) for h in found):
+        return []
+    reflection = mirror(pair.source, pair.source.regular)
+    return [] if reflection is None else [mirrored.images[reflection]]
 
 
 def distinct(found: Sequence[Hypothesis], count: int, sense: int) -> list[Hypothesis]:
