@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from geodesics.diffusion import BiharmonicDistance as BiharmonicDistance
     from geodesics.diffusion import CommuteTimeDistance as CommuteTimeDistance
     from geodesics.diffusion import DiffusionDistance as DiffusionDistance
+    from geodesics.distance import Distance as Distance
     from geodesics.errors import FormatError as FormatError
     from geodesics.errors import MeshError as MeshError
     from geodesics.errors import Note as Note
@@ -54,6 +55,7 @@ _NAMES = {
     "curvature": ("angle_defect", "gaussian_curvature", "mean_curvature", "principal_curvatures", "vertex_normals"),
     "delaunay": ("intrinsic_delaunay",),
     "diffusion": ("BiharmonicDistance", "CommuteTimeDistance", "DiffusionDistance"),
+    "distance": ("Distance",),
     "errors": ("FormatError", "MeshError", "Note"),
     "fast_marching": ("GeodesicDistance",),
     "io": ("read_mesh", "read_with_notes", "write_mesh"),

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from geodesics.euclidean import euclidean_distances
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
 from geodesics.spectrum import Spectrum
@@ -40,7 +41,7 @@ class _SpectralDistance:
         result = np.empty((len(points), self.mesh.n_vertices))
         for start in range(0, len(points), _BLOCK):
             rows = slice(start, start + _BLOCK)
-            result[rows] = _euclidean(here[rows], self.embedding)
+            result[rows] = euclidean_distances(here[rows], self.embedding)
         label = vertex_components(self.mesh)
         result[:, label < 0] = np.inf
         if not self._linked:
@@ -108,12 +109,3 @@ def _positive_part(spectrum: Spectrum) -> tuple[Array, Array]:
     null = spectrum.eigenvalues * spectrum.mass.sum() < 1e-6
     null[components:] = False
     return spectrum.eigenvalues[~null], spectrum.eigenfunctions[:, ~null]
-
-
-def _euclidean(rows: Array, columns: Array) -> Array:
-    """Distances (p, n) between two sets of vectors by one matrix product; exact where it would cancel."""
-    size = np.einsum("ik,ik->i", rows, rows)[:, None] + np.einsum("ik,ik->i", columns, columns)
-    squared = size - 2 * (rows @ columns.T)
-    i, j = np.nonzero(squared <= 1e-6 * size)
-    squared[i, j] = ((rows[i] - columns[j]) ** 2).sum(axis=1)
-    return np.sqrt(squared)

@@ -6,30 +6,19 @@ from collections.abc import Callable
 from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
-from scipy.sparse.csgraph import connected_components
 
 from geodesics._memo import memoized
+from geodesics.distance import Distance
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
+from geodesics.topology import vertex_components
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 Closer = Callable[[int, Floats], tuple[Integers, Floats]]
 FEW = 4  # components of fewer vertices get no sample of their own
-
-
-class Distance(Protocol):
-    """Anything that measures distances from points to all vertices of one mesh."""
-
-    @property
-    def mesh(self) -> Mesh:
-        """The mesh."""
-
-    def field(self, points: SurfacePoints) -> Floats:
-        """Distances (p, n) from each of p points to every vertex; +inf where unreachable."""
 
 
 @runtime_checkable
@@ -106,12 +95,9 @@ def _spreader(distance: Distance) -> Closer:
 @memoized
 def _eligible(mesh: Mesh) -> NDArray[np.bool_]:
     """Vertices on faces (n,), without components of fewer than `FEW` vertices unless there are only such."""
-    used = np.zeros(mesh.n_vertices, dtype=bool)
-    used[mesh.faces] = True
-    i, j = mesh.faces[:, [0, 1, 2]].ravel(), mesh.faces[:, [1, 2, 0]].ravel()
-    graph = sp.coo_matrix((np.ones(len(i)), (i, j)), shape=(mesh.n_vertices,) * 2)
-    label = connected_components(graph, directed=False)[1]
-    large = used & (np.bincount(label)[label] >= FEW)
+    label = vertex_components(mesh)
+    used = label >= 0
+    large = used & (np.bincount(label[used])[label] >= FEW)
     return large if large.any() else used
 
 

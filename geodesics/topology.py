@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from geodesics._memo import memoized
 from geodesics.delaunay import proper_faces
+from geodesics.edges import components
 from geodesics.mesh import Mesh
 
 
@@ -26,9 +26,7 @@ def boundary_vertices(mesh: Mesh) -> NDArray[np.bool_]:
 def vertex_components(mesh: Mesh) -> NDArray[np.int64]:
     """Component label of every vertex, shape (n,), numbered from 0; -1 where a vertex is on no face."""
     n, faces = mesh.n_vertices, mesh.faces
-    edges = faces[:, [0, 1, 0, 2]].reshape(-1, 2)
-    graph = sp.coo_matrix((np.ones(len(edges), dtype=np.int8), edges.T), shape=(n, n))
-    label = sp.csgraph.connected_components(graph, directed=False)[1]
+    label = components(faces[:, [0, 0]].ravel(), faces[:, [1, 2]].ravel(), n)
     used = np.zeros(n, dtype=bool)
     used[faces] = True
     compact = np.full(n, -1, dtype=np.int64)

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from geodesics import intrinsic
 from geodesics._kernels import tracing as kernel
 from geodesics._memo import memoized
+from geodesics.delaunay import mollified
 from geodesics.errors import BadShape
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
@@ -80,9 +81,7 @@ def layout(mesh: Mesh) -> Array:
     Degenerate faces get a little width: all edges are lengthened by one amount, just enough for every triangle
     inequality to hold by 1e-10 of the mean edge (Sharp and Crane 2020, "intrinsic mollification").
     """
-    length = np.sqrt(intrinsic.squared_lengths(mesh.vertices, mesh.faces))
-    excess = 2 * length.max(axis=1) - length.sum(axis=1)
-    length = length + max(0.0, float(excess.max()) + 1e-10 * float(length.mean()))
+    length = mollified(np.sqrt(intrinsic.squared_lengths(mesh.vertices, mesh.faces)), 1e-10)
     a, b, c = length.T
     x = (b * b + c * c - a * a) / (2 * c)
     return np.stack([c, x, 2 * intrinsic.areas(length**2) / c], axis=1)

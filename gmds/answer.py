@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from geodesics import SurfacePoints
+from geodesics.euclidean import euclidean_distances
 from gmds.candidates import FUNCTIONS, Hypothesis, SurfacePair
 from gmds.correspondence import Candidate, Correspondence, MatchStatus
 from gmds.surface import Surface
@@ -64,7 +65,7 @@ def _distortion(source: Surface, hypothesis: Hypothesis) -> Array:
     k = min(FUNCTIONS, ours.functions.shape[1], theirs.functions.shape[1])
     judges = ours.samples(JUDGES)
     here, there = ours.distance(k).embedding, hypothesis.points.interpolate(theirs.distance(k).embedding)
-    d_source, d_target = _between(here, here[judges]), _between(there, there[judges])
+    d_source, d_target = (euclidean_distances(rows, rows[judges]) for rows in (here, there))
     result = np.abs(d_source - d_target).mean(axis=1) / d_source[ours.usable].mean()
     result[ours.spectrum.mass == 0] = 1.0
     return result
@@ -86,9 +87,3 @@ def _gap(one: Hypothesis, other: Hypothesis) -> float:
     """Mean distance in space between the images of two maps, over the square root of the target's area."""
     mesh = one.views[1].mesh
     return float(np.linalg.norm(mesh.vertices[one.images] - mesh.vertices[other.images], axis=1).mean())
-
-
-def _between(rows: Array, others: Array) -> Array:
-    """Distances (p, q) between two sets of vectors."""
-    norms = np.einsum("ik,ik->i", rows, rows)[:, None] + np.einsum("ik,ik->i", others, others)
-    return np.sqrt(np.maximum(norms - 2 * rows @ others.T, 0))

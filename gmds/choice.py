@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from geodesics.euclidean import euclidean_distances
 from gmds.orientation import vertex_map_orientation
 from gmds.surface import Surface, View
 
@@ -52,7 +53,7 @@ class Evidence:
 def evidence(source: Surface, target: Surface, views: tuple[View, View], samples: Index, images: Index) -> Evidence:
     """What speaks for a map (n,) to target vertices, with distances measured in `views` between the `samples`."""
     ours, theirs = (view.distance(min(FUNCTIONS, view.functions.shape[1])).embedding for view in views)
-    here, there = _distances(ours[samples]), _distances(theirs[images[samples]])
+    here, there = (euclidean_distances(rows, rows) for rows in (ours[samples], theirs[images[samples]]))
     used = source.regular.usable
     return Evidence(
         stress=float(np.abs(here - there).mean() / here.mean()),
@@ -74,8 +75,3 @@ def _correlation(x: Array, y: Array, weights: Array) -> float:
     x, y = x - w @ x, y - w @ y
     square, other = w @ x**2, w @ y**2
     return float(w @ (x * y) / np.sqrt(square * other)) if square * other > 0 else float(square == other)
-
-
-def _distances(rows: Array) -> Array:
-    norm = np.einsum("ik,ik->i", rows, rows)
-    return np.sqrt(np.maximum(norm[:, None] + norm - 2 * rows @ rows.T, 0))

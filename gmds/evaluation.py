@@ -8,12 +8,12 @@ flipped one.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from geodesics import intrinsic
+from geodesics.distance import Distance
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
 from gmds.correspondence import Correspondence
@@ -24,12 +24,6 @@ Indices = NDArray[np.int64]
 
 PROTOCOL_POINTS = 125
 CHUNK = 64  # truth points marched at once, so that memory stays at CHUNK times the vertices
-
-
-class Distance(Protocol):
-    """What the judge measures with: distances from each of p points to all n vertices, (p, n)."""
-
-    def field(self, points: SurfacePoints) -> Array: ...
 
 
 @dataclass(frozen=True)

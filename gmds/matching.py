@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from typing import Any, Literal
 
-from geodesics import Mesh
+from geodesics import Distance, Mesh
 from geodesics.threads import on_one_blas_thread
 from gmds import initialization
 from gmds._validation import check_sample_count, suggest_keywords
@@ -16,7 +16,6 @@ from gmds.correspondence import Correspondence
 from gmds.initialization.landmarks import landmarks as from_landmarks
 from gmds.landmarks import landmark_vertices
 from gmds.losses import LeastSquares, Loss
-from gmds.pairwise import Distance
 from gmds.surface import measure, view_of
 
 SAMPLES = 300

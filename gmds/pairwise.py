@@ -8,22 +8,11 @@ from typing import Protocol, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from geodesics import Mesh, SurfacePoints
+from geodesics import Distance, SurfacePoints
 from geodesics.topology import vertex_components
 from geodesics.tracing import barycentric_gradient, gradient
 
 Array = NDArray[np.float64]
-
-
-class Distance(Protocol):
-    """What measures distances on a mesh: `field(points)` is (p, n), from each point to every vertex."""
-
-    @property
-    def mesh(self) -> Mesh:
-        """The surface."""
-
-    def field(self, points: SurfacePoints) -> Array:
-        """Distances (p, n) from each point to every vertex, +inf where it can not be reached."""
 
 
 class EmbeddedDistance(Distance, Protocol):

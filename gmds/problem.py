@@ -9,10 +9,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from geodesics import SurfacePoints
+from geodesics import Distance, SurfacePoints
 from geodesics.tracing import barycentric_gradient
 from gmds.jacobian import Jacobian, scaled
-from gmds.pairwise import Distance, Pairs, pairwise
+from gmds.pairwise import Pairs, pairwise
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]

@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from geodesics import SurfacePoints
+from geodesics import Distance, SurfacePoints
 from geodesics.topology import vertex_components
-from gmds.pairwise import Distance
 from gmds.problem import Placement, mixed
 
 Array = NDArray[np.float64]

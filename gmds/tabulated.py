@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from geodesics import Mesh, SurfacePoints, farthest_point_sampling
+from geodesics import Distance, Mesh, SurfacePoints, farthest_point_sampling
 from geodesics.topology import vertex_components
-from gmds.pairwise import Distance
 
 Array = NDArray[np.float64]
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from geodesics.euclidean import euclidean_distances
 from gmds.functional_maps import functional_map, nearest_rows
 from gmds.orientation import orientation_forms, pulled_back_forms
 from gmds.surface import View
@@ -97,22 +98,19 @@ class SampledPair:
     @functools.cached_property
     def source_distances(self) -> Array:
         """Commute-time distances between the first source samples, a square array."""
-        return _distances(self.source.embedding[self.source_samples[:JUDGED], :FUNCTIONS])
+        rows = self.source.embedding[self.source_samples[:JUDGED], :FUNCTIONS]
+        return euclidean_distances(rows, rows)
 
     def stress(self, images: Index) -> float:
         """Mean |d_S - d_Q| between the first samples over mean d_S, in commute-time distance."""
-        theirs = _distances(self.target.embedding[self.target_samples[images[:JUDGED]], :FUNCTIONS])
-        return float(np.abs(self.source_distances - theirs).mean() / self.source_distances.mean())
+        rows = self.target.embedding[self.target_samples[images[:JUDGED]], :FUNCTIONS]
+        there = euclidean_distances(rows, rows)
+        return float(np.abs(self.source_distances - there).mean() / self.source_distances.mean())
 
     def gap(self, images: Index, others: Index) -> float:
         """How far two sample maps are apart: mean distance of their images over mean d_S."""
         e = self.target.embedding[self.target_samples, :FUNCTIONS]
         return float(np.linalg.norm(e[images] - e[others], axis=1).mean() / self.source_distances.mean())
-
-
-def _distances(rows: Array) -> Array:
-    norm = np.einsum("ik,ik->i", rows, rows)
-    return np.sqrt(np.maximum(norm[:, None] + norm - 2 * rows @ rows.T, 0))
 
 
 def _signed_root(values: Array) -> Array:

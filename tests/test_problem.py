@@ -13,6 +13,7 @@ from geodesics import (
     BiharmonicDistance,
     CommuteTimeDistance,
     DiffusionDistance,
+    Distance,
     GeodesicDistance,
     Mesh,
     SurfacePoints,
@@ -23,7 +24,7 @@ from geodesics import (
 )
 from geodesics.tracing import walk
 from gmds._kernels import pairs as kernel
-from gmds.pairwise import Distance, pairwise
+from gmds.pairwise import pairwise
 from gmds.problem import Problem, joined, mixed
 from gmds.remarching import frozen
 from gmds.tabulated import TabulatedDistance

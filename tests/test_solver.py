@@ -11,6 +11,7 @@ from test_problem import DISTANCES
 
 from geodesics import (
     CommuteTimeDistance,
+    Distance,
     GeodesicDistance,
     Mesh,
     SurfacePoints,
@@ -24,7 +25,6 @@ from gmds.descent import SHORTEST
 from gmds.errors import SolverError
 from gmds.losses import ALL, Huber, LeastSquares, Loss, Minimax
 from gmds.multiresolution import solve_multiresolution
-from gmds.pairwise import Distance
 from gmds.problem import Problem
 from gmds.prolongation import prolonged, relocated
 from gmds.solver import solve

@@ -7,6 +7,7 @@ import itertools
 import numpy as np
 from numpy.typing import NDArray
 
+from geodesics.euclidean import euclidean_distances
 from gmds.functional_maps import nearest_rows
 from gmds.surface import View
 from gmds.upsampling import SampledPair
@@ -25,8 +26,8 @@ def extremities(pair: SampledPair) -> list[Index]:
     ours, theirs = surface_extremities(pair.source), surface_extremities(pair.target)
     if min(len(ours), len(theirs)) < 3:
         return []
-    here = _between(pair.source.embedding[ours], pair.source.embedding[ours])
-    there = _between(pair.target.embedding[theirs], pair.target.embedding[theirs])
+    here = euclidean_distances(pair.source.embedding[ours], pair.source.embedding[ours])
+    there = euclidean_distances(pair.target.embedding[theirs], pair.target.embedding[theirs])
     if len(ours) <= len(theirs):
         assigned = [(ours, theirs[list(a)]) for a in _assignments(here, there)]
     else:
@@ -36,8 +37,8 @@ def extremities(pair: SampledPair) -> list[Index]:
 
 def trilaterated(pair: SampledPair, ours: Index, theirs: Index) -> Index:
     """Each sample goes where its distances to the vertices `ours` (l,) are those to `theirs` (l,) on the target."""
-    queries = _between(pair.source.embedding[pair.source_samples], pair.source.embedding[ours])
-    rows = _between(pair.target.embedding[pair.target_samples], pair.target.embedding[theirs])
+    queries = euclidean_distances(pair.source.embedding[pair.source_samples], pair.source.embedding[ours])
+    rows = euclidean_distances(pair.target.embedding[pair.target_samples], pair.target.embedding[theirs])
     return nearest_rows(queries, rows)
 
 
@@ -68,8 +69,3 @@ def _assignments(few: Array, many: Array) -> Index:
     i, j = np.triu_indices(len(few), 1)
     misfit = np.abs(few[i, j] - many[all_of_them[:, i], all_of_them[:, j]]).mean(axis=1)
     return all_of_them[np.argsort(misfit, kind="stable")[:BEST]]
-
-
-def _between(rows: Array, others: Array) -> Array:
-    """Distances (p, q) between two sets of vectors."""
-    return np.linalg.norm(rows[:, None] - others[None], axis=2)

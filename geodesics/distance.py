@@ -1,0 +1,22 @@
+"""What a distance is."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics.mesh import Mesh
+from geodesics.points import SurfacePoints
+
+
+class Distance(Protocol):
+    """Anything that measures distances from points to all vertices of one mesh."""
+
+    @property
+    def mesh(self) -> Mesh:
+        """The mesh, of n vertices."""
+
+    def field(self, points: SurfacePoints) -> NDArray[np.float64]:
+        """Distances (p, n) from each of p points to every vertex, in the unit of the metric; +inf where unreachable."""
