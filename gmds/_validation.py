@@ -1,4 +1,4 @@
-"""The checks at the door of the matcher: landmarks, sample counts, names of options."""
+"""The checks at the door of the matcher: sample counts and names of options (for landmarks see `landmarks`)."""
 
 from __future__ import annotations
 
@@ -11,42 +11,12 @@ from typing import Any, ParamSpec, TypeVar
 import numpy as np
 
 from geodesics import Mesh
-from gmds.landmarks import LandmarkError, check_landmarks, place_landmarks
-
-__all__ = [
-    "LandmarkError",
-    "SampleCountError",
-    "UnknownKey",
-    "check_keys",
-    "check_landmarks",
-    "check_sample_count",
-    "did_you_mean",
-    "place_landmarks",
-    "suggest_keywords",
-]
+from gmds.errors import SampleCountError, UnknownKey
 
 P = ParamSpec("P")
 R = TypeVar("R")
 
 FEWEST_SAMPLES = 3
-
-
-class SampleCountError(ValueError):
-    """A number of samples outside the allowed range, which the message gives."""
-
-    code = "E401"
-
-    def __str__(self) -> str:
-        return f"{self.code}: {super().__str__()}"
-
-
-class UnknownKey(ValueError):
-    """A configuration key that does not exist; the message names the nearest one that does."""
-
-    code = "E601"
-
-    def __str__(self) -> str:
-        return f"{self.code}: {super().__str__()}"
 
 
 def check_sample_count(count: Any, mesh: Mesh) -> int:

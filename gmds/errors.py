@@ -1,8 +1,46 @@
-"""What can be wrong with a map or its file; every error has a stable code and says what to do."""
+"""What can be wrong with a map or with what the matcher is given; every error has a stable code and says what to do."""
 
 from __future__ import annotations
 
-from geodesics.errors import FormatError
+from geodesics.errors import FormatError, MeshError
+
+
+class TooFewVertices(MeshError):
+    """The largest component of a mesh is too small to be matched."""
+
+    code = "E113"
+
+
+class LandmarkError(ValueError):
+    """Landmarks that can not be used; `code` says why and the message says which.
+
+    E300 form, E301 no such vertex, E302 given twice, E303 unequal counts, E304 on no face, E305 off the surface.
+    """
+
+    def __init__(self, code: str, message: str) -> None:
+        super().__init__(code, message)
+        self.code = code
+
+    def __str__(self) -> str:
+        return f"{self.code}: {self.args[1]}"
+
+
+class SampleCountError(ValueError):
+    """A number of samples outside the allowed range, which the message gives."""
+
+    code = "E401"
+
+    def __str__(self) -> str:
+        return f"{self.code}: {super().__str__()}"
+
+
+class UnknownKey(ValueError):
+    """A configuration key that does not exist; the message names the nearest one that does."""
+
+    code = "E601"
+
+    def __str__(self) -> str:
+        return f"{self.code}: {super().__str__()}"
 
 
 class MapError(ValueError):

@@ -9,22 +9,9 @@ from numpy.typing import NDArray
 
 from geodesics import Mesh, MeshError, SurfacePoints
 from geodesics.errors import Note
+from gmds.errors import LandmarkError
 
 FARTHEST_LANDMARK = 0.05  # of the diagonal of the bounding box
-
-
-class LandmarkError(ValueError):
-    """Landmarks that can not be used; `code` says why and the message says which.
-
-    E300 form, E301 no such vertex, E302 given twice, E303 unequal counts, E304 on no face, E305 off the surface.
-    """
-
-    def __init__(self, code: str, message: str) -> None:
-        super().__init__(code, message)
-        self.code = code
-
-    def __str__(self) -> str:
-        return f"{self.code}: {self.args[1]}"
 
 
 def check_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> tuple[SurfacePoints, SurfacePoints]:

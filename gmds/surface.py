@@ -19,11 +19,11 @@ from geodesics import (
     scale_invariant,
 )
 from geodesics.curvature import mean_curvature
-from geodesics.errors import MeshError
 from geodesics.intrinsic import areas, squared_lengths
 from geodesics.orientation import orient_faces
 from geodesics.sampling import Cells, farthest_point_cells
 from geodesics.topology import vertex_components
+from gmds.errors import TooFewVertices
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -36,12 +36,6 @@ DETAIL = 1e-3  # smoothing of the mean curvature that tells the chest from the b
 FLAT = 1e-6  # mean curvature of a surface of unit area below which it is rounding
 EXPONENTS = (1.0, 0.5)  # of |K|, beside 0: what suits parts that grew much, a little, and not at all
 SAMPLING_FUNCTIONS = 20  # of a commute-time distance, for choosing samples: the rest does not move them much
-
-
-class TooFewVertices(MeshError):
-    """The largest part of a mesh is too small to be matched."""
-
-    code = "E113"
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,16 +9,9 @@ import pytest
 from shapes import bumpy_sphere, icosphere, with_isolated
 
 from geodesics import Mesh, SurfacePoints
-from gmds._validation import (
-    LandmarkError,
-    SampleCountError,
-    UnknownKey,
-    check_keys,
-    check_landmarks,
-    check_sample_count,
-    place_landmarks,
-    suggest_keywords,
-)
+from gmds._validation import check_keys, check_sample_count, suggest_keywords
+from gmds.errors import LandmarkError, SampleCountError, UnknownKey
+from gmds.landmarks import check_landmarks, place_landmarks
 
 A, B = bumpy_sphere(2), icosphere(2)
 PAIRS = np.array([[3, 5], [10, 1], [20, 30]])
