@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import time
-
 import numpy as np
 import pytest
 import shapes
@@ -264,14 +262,3 @@ def test_the_same_problem_gives_the_same_numbers(commute: Distance) -> None:
         a, b = (solve(problem, start, loss, max_iterations=6) for _ in range(2))
         np.testing.assert_array_equal(a.points.barycentric, b.points.barycentric)
         np.testing.assert_array_equal(a.points.face, b.points.face)
-
-
-def test_two_hundred_samples_in_half_a_second() -> None:
-    fine = shapes.bumpy_sphere(4)
-    distance = CommuteTimeDistance(eigenpairs(embedded(fine), 65))
-    points = samples(distance, 200)
-    problem, start = Problem(distance, points, distance), shaken(points, 0.1)
-    solve(problem, start, max_iterations=2)
-    before = time.process_time()
-    solve(problem, start, max_iterations=20)
-    assert time.process_time() - before < 0.5
