@@ -3,17 +3,16 @@
 import geodesics
 from geodesics import DiffusionDistance, eigenpairs, farthest_point_sampling, voronoi_cells
 from gmds.deformations import local_scaling
-from gmds.evaluation import surface_area
 from gmds.pictures import write_values
 from gmds.shapes import quadruped
 
 before = quadruped(n_vertices=1500)
 head = 1 / (1 + 2.718 ** (-20 * (before.rest[:, 0] - 0.8)))  # 1 on the head, 0 on the body
 after, truth = local_scaling(before, 0.7 * head)
-print(f"area {surface_area(before):.2f} before, {surface_area(after):.2f} after")
+print(f"area {before.area:.2f} before, {after.area:.2f} after")
 
 nose = int(before.vertices[:, 0].argmax())
-weight = geodesics.embedded(before).mass / surface_area(before)
+weight = geodesics.embedded(before).mass / before.area
 for metric in (geodesics.embedded, geodesics.scale_invariant):
     cells = []
     for mesh in (before, after):

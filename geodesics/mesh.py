@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from geodesics import intrinsic
 from geodesics._duck import arrays_of
 from geodesics._validation import as_faces, as_indices, as_vertices, check_area
 from geodesics.errors import BadShape
@@ -73,6 +74,11 @@ class Mesh:
     def n_faces(self) -> int:
         """Number of faces."""
         return len(self.faces)
+
+    @property
+    def area(self) -> float:
+        """Area of the surface, in squared units of the coordinates."""
+        return float(intrinsic.areas(intrinsic.squared_lengths(self.vertices, self.faces)).sum())
 
 
 def triangulate(faces: ArrayLike) -> NDArray[np.int64]:

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from geodesics._memo import memoized
 from geodesics._validation import as_indices, as_vertices, as_weights
+from geodesics.closest import closest_on_triangles
 from geodesics.errors import BadShape, IndexOutOfRange
 from geodesics.mesh import Mesh
 
@@ -50,20 +51,13 @@ class SurfacePoints:
 
     @classmethod
     def closest(cls, mesh: Mesh, positions: ArrayLike) -> SurfacePoints:
-        """The points of the surface closest in space to `positions` (p, 3)."""
-        import igl
-
+        """The points of the surface closest in space to `positions` (p, 3). Raises `MeshError` as `Mesh` does."""
         mesh = Mesh.from_object(mesh)
         p = as_vertices(positions)
         center, size = mesh.vertices.mean(axis=0), np.ptp(mesh.vertices, axis=0).max()
-        v = (mesh.vertices - center) / size  # a unit-sized copy: squared distances stay in range at any scale
-        _, face, foot = igl.point_mesh_squared_distance((p - center) / size, v, mesh.faces)
-        a, b, c = v[mesh.faces[face].T]
-        edges = np.stack([b - a, c - a], axis=2)
-        weights = (np.linalg.pinv(edges) @ (foot - a)[:, :, None])[:, :, 0].clip(0, 1)
-        first = (1 - weights.sum(axis=1, keepdims=True)).clip(0)
-        weights = np.hstack([first, weights])
-        return cls(mesh, face, weights / weights.sum(axis=1, keepdims=True))
+        unit = (mesh.vertices - center) / size  # a unit-sized copy: squared distances stay in range at any scale
+        face, weights, _ = closest_on_triangles((p - center) / size, unit, mesh.faces)
+        return cls(mesh, face, weights)
 
     def __len__(self) -> int:
         return len(self.face)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from geodesics import intrinsic
+from geodesics.curvature import one_ring_areas
 from geodesics.distance import Distance
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
@@ -66,7 +66,7 @@ def geodesic_error(
         raise MapError(f"{len(truth)} truth points for {len(points)} mapped points; name the rows by source_indices")
     marched = _marched(points, truth, distance or _embedded_geodesics(target))
     straight = np.linalg.norm(points.positions - truth.positions, axis=1)
-    return np.where(_on_one_face(points, truth), straight, marched) / np.sqrt(surface_area(target))
+    return np.where(_on_one_face(points, truth), straight, marched) / np.sqrt(target.area)
 
 
 def error_curve(errors: ArrayLike, thresholds: ArrayLike | None = None) -> Array:
@@ -93,14 +93,8 @@ def protocol_subset(count: int, size: int = PROTOCOL_POINTS) -> Indices:
 def coverage(answer: Correspondence) -> float:
     """The share in [0, 1] of the target's area that belongs to vertices some source vertex is mapped to."""
     target = answer.target
-    third = intrinsic.areas(intrinsic.squared_lengths(target.vertices, target.faces)) / 3
-    area = np.bincount(target.faces.ravel(), np.repeat(third, 3), minlength=target.n_vertices)
+    area = one_ring_areas(target)
     return float(area[np.unique(answer.vertex_map()[answer.valid])].sum() / area.sum())
-
-
-def surface_area(mesh: Mesh) -> float:
-    """Area of the mesh, in squared units of its coordinates."""
-    return float(intrinsic.areas(intrinsic.squared_lengths(mesh.vertices, mesh.faces)).sum())
 
 
 def _embedded_geodesics(target: Mesh) -> Distance:

@@ -7,7 +7,7 @@ import pytest
 from shapes import bumpy_sphere, ellipsoid, icosphere, moved, subdivided, with_isolated
 
 from geodesics import Mesh, SurfacePoints
-from gmds.algebra import closest_on_triangles, closest_weights
+from geodesics.closest import closest_on_triangles, closest_weights
 from gmds.correspondence import Candidate, Correspondence, MatchStatus
 from gmds.errors import MapError
 

@@ -15,7 +15,7 @@ from gmds.benchmarking import BenchmarkRow, benchmark, means, turned, write_csv
 from gmds.correspondence import Correspondence
 from gmds.datasets import UnknownDataset, dataset_pairs
 from gmds.errors import MapError
-from gmds.evaluation import coverage, error_curve, geodesic_error, protocol_subset, summary, surface_area
+from gmds.evaluation import coverage, error_curve, geodesic_error, protocol_subset, summary
 from gmds.truth_files import BadTruth, read_landmarks_mat, read_truth_npz, read_vts
 
 
@@ -59,8 +59,8 @@ def test_errors_are_geodesic_over_root_area() -> None:
     true, mapped = rng.integers(0, sphere.n_vertices, (2, 50))
     errors = geodesic_error(SurfacePoints.at_vertices(sphere, mapped), true, distance=SphereDistance(sphere))
     angle = np.arccos(np.clip((sphere.vertices[true] * sphere.vertices[mapped]).sum(axis=1), -1, 1))
-    np.testing.assert_allclose(errors, angle / np.sqrt(surface_area(sphere)), atol=1e-4)  # chords of one edge
-    assert surface_area(sphere) == pytest.approx(4 * np.pi, rel=0.01)
+    np.testing.assert_allclose(errors, angle / np.sqrt(sphere.area), atol=1e-4)  # chords of one edge
+    assert sphere.area == pytest.approx(4 * np.pi, rel=0.01)
 
 
 def test_the_default_measure_is_the_geodesic_one() -> None:
@@ -73,7 +73,7 @@ def test_the_default_measure_is_the_geodesic_one() -> None:
     centre = sheet.vertices[sheet.faces].mean(axis=1)
     elbow = Mesh(sheet.vertices, sheet.faces[(centre[:, 0] < 0.2) | (centre[:, 1] < 0.2)])
     ends = [int(np.linalg.norm(sheet.vertices - corner, axis=1).argmin()) for corner in ([0, 1, 0], [1, 0, 0])]
-    expected = 2 * np.hypot(0.2, 0.8) / np.sqrt(surface_area(elbow))
+    expected = 2 * np.hypot(0.2, 0.8) / np.sqrt(elbow.area)
     assert geodesic_error(SurfacePoints.at_vertices(elbow, ends[:1]), ends[1:])[0] == pytest.approx(expected, rel=0.02)
 
 
@@ -115,7 +115,7 @@ def test_one_march_for_each_distinct_truth_point() -> None:
 def test_another_component_counts_as_the_largest_distance() -> None:
     mesh = joined(icosphere(1), icosphere(1))
     mapped = SurfacePoints.at_vertices(mesh, [5, 42 + 5])
-    errors = geodesic_error(mapped, [0, 0], distance=SeparateComponents(mesh, 42)) * np.sqrt(surface_area(mesh))
+    errors = geodesic_error(mapped, [0, 0], distance=SeparateComponents(mesh, 42)) * np.sqrt(mesh.area)
     assert errors[0] == pytest.approx(np.linalg.norm(mesh.vertices[5] - mesh.vertices[0]))
     assert errors[1] == pytest.approx(2)
 
@@ -306,5 +306,5 @@ def test_landmark_points_lie_at_their_vertices() -> None:
         mesh = read_mesh(root / "models" / f"{name}.obj")
         ids, vertices, faces, weights = read_landmarks_mat(root / "gts" / f"{name}.mat")
         gap = np.linalg.norm(SurfacePoints(mesh, faces, weights).positions - mesh.vertices[vertices], axis=1)
-        assert gap.max() < 0.05 * np.sqrt(surface_area(mesh))
+        assert gap.max() < 0.05 * np.sqrt(mesh.area)
         assert (12 in ids) == (name == "dog")

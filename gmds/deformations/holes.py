@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geodesics import Mesh, SurfacePoints, intrinsic
+from geodesics import Mesh, SurfacePoints
 from geodesics.topology import vertex_components
 from gmds.deformations.extremities import edge_distances
 from gmds.triangulation import closest_points
@@ -17,11 +17,10 @@ def holes(mesh: Mesh, count: int = 5, *, radius: float = 0.05, rng: int = 0) -> 
     lost vertex gets the point of the rest closest in space, at a distance from its own place that says that it is lost.
     Raises ValueError when nothing is left.
     """
-    area = intrinsic.areas(intrinsic.squared_lengths(mesh.vertices, mesh.faces)).sum()
     random = np.random.default_rng(rng)
     centres = random.permutation(mesh.n_vertices)[:count]
     distance = edge_distances(mesh, centres).min(axis=0) if count else np.full(mesh.n_vertices, np.inf)
-    faces = mesh.faces[(distance > radius * np.sqrt(area))[mesh.faces].all(axis=1)]
+    faces = mesh.faces[(distance > radius * np.sqrt(mesh.area))[mesh.faces].all(axis=1)]
     if len(faces) == 0:
         raise ValueError(f"{count} holes of radius {radius} leave nothing; ask for fewer or smaller ones")
     label = vertex_components(Mesh(mesh.vertices, faces))[faces[:, 0]]

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from geodesics import Mesh, SurfacePoints, intrinsic
+from geodesics import Mesh, SurfacePoints
+from geodesics.curvature import one_ring_areas
 from geodesics.errors import BadShape
 from gmds.deformations.extremities import edge_distances, extremities
 from gmds.deformations.fitting import fit
@@ -39,11 +40,7 @@ def achieved_log_scale(before: Mesh, after: Mesh) -> Array:
     """
     if not np.array_equal(before.faces, after.faces):
         raise BadShape("the two meshes must have the same faces")
-    ring = [
-        np.bincount(m.faces.ravel(), np.repeat(intrinsic.areas(intrinsic.squared_lengths(m.vertices, m.faces)), 3))
-        for m in (before, after)
-    ]
-    return 0.5 * np.log(ring[1] / ring[0])
+    return 0.5 * np.log(one_ring_areas(after) / one_ring_areas(before))
 
 
 def branch_log_scale(mesh: Mesh, factor: float, *, count: int = 2, reach: float = 0.5, rng: int = 0) -> Array:
