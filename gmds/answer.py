@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import platform
 from collections.abc import Mapping, Sequence
+from importlib.metadata import version
 from typing import Any
 
 import numpy as np
@@ -11,7 +13,8 @@ from scipy.spatial import cKDTree
 
 from geodesics import SurfacePoints
 from geodesics.euclidean import euclidean_distances
-from gmds.candidates import FUNCTIONS, Hypothesis, SurfacePair
+from gmds import __version__
+from gmds.candidates import FUNCTIONS, Embedded, SurfacePair
 from gmds.correspondence import Candidate, Correspondence, MatchStatus
 from gmds.surface import Surface
 
@@ -24,7 +27,7 @@ DIFFERENT = 0.1  # mean distance between the images of two maps, over root area,
 JUDGES = 100  # samples that distortion is measured against
 
 
-def answer(pair: SurfacePair, placed: Sequence[Hypothesis], meta: Mapping[str, Any]) -> Correspondence:
+def answer(pair: SurfacePair, placed: Sequence[Embedded], meta: Mapping[str, Any]) -> Correspondence:
     """The best map as a `Correspondence` between the original meshes, the others as its candidates."""
     source, target = pair.source, pair.target
     best = placed[0]
@@ -40,14 +43,19 @@ def answer(pair: SurfacePair, placed: Sequence[Hypothesis], meta: Mapping[str, A
         distortion=_distortion(source, best),
         status=_status(placed, pair.sense),
         candidates=candidates,
-        meta={**meta, "evidence": vars(best.evidence)},
+        meta={**meta, "evidence": vars(best.evidence), "solver": best.solution.status.name, "versions": _versions()},
     )
 
 
-def _original(source: Surface, target: Surface, hypothesis: Hypothesis) -> SurfacePoints:
+def _versions() -> dict[str, str]:
+    """What computed the numbers."""
+    numeric = {name: version(name) for name in ("numpy", "scipy", "numba")}
+    return {"gmds": __version__, "python": platform.python_version(), **numeric}
+
+
+def _original(source: Surface, target: Surface, hypothesis: Embedded) -> SurfacePoints:
     """The points on the original target; vertices that were left out go where the nearest one that was not went."""
     points = hypothesis.points
-    assert points is not None
     used = source.regular.usable
     row = np.arange(source.mesh.n_vertices)
     if len(used) < len(row):
@@ -58,10 +66,9 @@ def _original(source: Surface, target: Surface, hypothesis: Hypothesis) -> Surfa
     return SurfacePoints(target.original, face, np.where(swapped, weight[:, [0, 2, 1]], weight))
 
 
-def _distortion(source: Surface, hypothesis: Hypothesis) -> Array:
+def _distortion(source: Surface, hypothesis: Embedded) -> Array:
     """Mean |d_S - d_Q| (n,) from each vertex to the samples, over the mean d_S; 1 where there is no map."""
     ours, theirs = hypothesis.views
-    assert hypothesis.points is not None
     k = min(FUNCTIONS, ours.functions.shape[1], theirs.functions.shape[1])
     judges = ours.samples(JUDGES)
     here, there = ours.distance(k).embedding, hypothesis.points.interpolate(theirs.distance(k).embedding)
@@ -71,10 +78,10 @@ def _distortion(source: Surface, hypothesis: Hypothesis) -> Array:
     return result
 
 
-def _status(placed: Sequence[Hypothesis], sense: int) -> MatchStatus:
+def _status(placed: Sequence[Embedded], sense: int) -> MatchStatus:
     """POOR where distances or curvature are badly kept, AMBIGUOUS where a quite different map is nearly as good."""
     best = placed[0].evidence
-    if best.stress > POOR or best.bend < BENT:
+    if best.stress > POOR or best.curvature < BENT:
         return MatchStatus.POOR
     for other in placed[1:]:
         close = other.evidence.loss(sense) - best.loss(sense) < CLOSE
@@ -83,7 +90,7 @@ def _status(placed: Sequence[Hypothesis], sense: int) -> MatchStatus:
     return MatchStatus.GOOD
 
 
-def _gap(one: Hypothesis, other: Hypothesis) -> float:
+def _gap(one: Embedded, other: Embedded) -> float:
     """Mean distance in space between the images of two maps, over the square root of the target's area."""
     mesh = one.views[1].mesh
     return float(np.linalg.norm(mesh.vertices[one.images] - mesh.vertices[other.images], axis=1).mean())

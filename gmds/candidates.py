@@ -55,9 +55,9 @@ class SurfacePair:
             return found
         place = self.target.mesh.vertices
         miss = np.linalg.norm(place[images[self.known[0]]] - place[self.known[1]], axis=1)
-        return replace(found, missed=float(miss.mean()))
+        return replace(found, landmark_error=float(miss.mean()))
 
-    def fixed(self, samples: Index, points: SurfacePoints) -> tuple[Index, SurfacePoints]:
+    def with_landmarks(self, samples: Index, points: SurfacePoints) -> tuple[Index, SurfacePoints]:
         """Placed samples with the landmarks added, often enough that the extension heeds them."""
         if self.known is None:
             return samples, points
@@ -67,17 +67,19 @@ class SurfacePair:
 
 @dataclass(frozen=True, eq=False)
 class Hypothesis:
-    """A map under consideration.
-
-    `images` (n,): target vertices; `views`: the metrics in which it is measured; `points`: the images with sub-vertex
-    precision, once `solution`, the embedding of the samples, has been extended to all vertices.
-    """
+    """A map under consideration: target vertices `images` (n,), and the `views` of both surfaces it is measured in."""
 
     images: Index
     views: tuple[View, View]
     evidence: Evidence
-    points: SurfacePoints | None = None
-    solution: Solution | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Embedded(Hypothesis):
+    """A map whose samples were placed by `solve`, with this `solution`, and extended to all vertices: `points` (n,)."""
+
+    points: SurfacePoints
+    solution: Solution
 
 
 def proposals(pair: SurfacePair, starts: Sequence[Start]) -> Iterator[Hypothesis]:
@@ -146,7 +148,7 @@ def distinct(found: Sequence[Hypothesis], count: int, sense: int) -> list[Hypoth
 
 def embed(
     pair: SurfacePair, hypothesis: Hypothesis, loss: Loss, count: int, distances: Measured | None = None
-) -> Hypothesis:
+) -> Embedded:
     """The hypothesis after generalised multidimensional scaling of `count` samples, extended to every vertex.
 
     Distances are diffusion distances (3.1) in the views of the hypothesis, unless others are given.
@@ -161,10 +163,10 @@ def embed(
     problem = Problem(here, SurfacePoints.at_vertices(pair.source.mesh, samples), there)
     start = SurfacePoints.at_vertices(pair.target.mesh, hypothesis.images[samples])
     solution = solve(problem, start, loss, max_iterations=ITERATIONS)
-    points = extend(ours, theirs, *pair.fixed(samples, solution.points), k)
+    points = extend(ours, theirs, *pair.with_landmarks(samples, solution.points), k)
     images = points.nearest_vertices()
     weighed = pair.weighed(hypothesis.views, samples, images)
-    return replace(hypothesis, images=images, points=points, solution=solution, evidence=weighed)
+    return Embedded(images, hypothesis.views, weighed, points, solution)
 
 
 def _gap(one: Hypothesis, other: Hypothesis) -> float:

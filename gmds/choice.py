@@ -24,17 +24,17 @@ LEAST = 1e-6  # residuals below this are rounding
 class Evidence:
     """What speaks for a map.
 
-    `stress`: mean |d_S - d_Q| between samples over mean d_S; `bend`: correlation of squashed mean curvature, which
-    knows the chest from the back; `orientation`: signed share of the area that keeps its orientation; `energy`:
-    Dirichlet energy of the map over that of the identity, which knows torn maps from whole ones; `missed`: mean
-    distance of the landmarks, if any, from where they belong, in square roots of the area.
+    `stress`: mean |d_S - d_Q| between samples over mean d_S; `curvature`: correlation of squashed mean curvature,
+    which tells the chest from the back; `orientation`: signed share of the area that keeps its orientation;
+    `dirichlet_energy`: of the map, over that of the identity, which tells torn maps from whole ones; `landmark_error`:
+    mean distance of the landmarks, if any, from where they belong, in square roots of the area.
     """
 
     stress: float
-    bend: float
+    curvature: float
     orientation: float
-    energy: float
-    missed: float = 0.0
+    dirichlet_energy: float
+    landmark_error: float = 0.0
 
     def loss(self, sense: int) -> float:
         """Minus the log-likelihood up to a constant, with the spread of each residual at its best value.
@@ -45,9 +45,9 @@ class Evidence:
         -1 when it is to be reversed, 0 when either will do.
         """
         orientation = abs(self.orientation) if sense == 0 else sense * self.orientation
-        unexplained = 1 - np.clip(self.bend, 0.0, 1.0) ** 2
-        spreads = (self.stress, unexplained, 1 - min(orientation, CLEAR), np.sqrt(self.energy))
-        return float(sum(np.log(max(spread, LEAST)) for spread in spreads) + np.log(1 + self.missed / HIT))
+        unexplained = 1 - np.clip(self.curvature, 0.0, 1.0) ** 2
+        spreads = (self.stress, unexplained, 1 - min(orientation, CLEAR), np.sqrt(self.dirichlet_energy))
+        return float(sum(np.log(max(spread, LEAST)) for spread in spreads) + np.log(1 + self.landmark_error / HIT))
 
 
 def evidence(source: Surface, target: Surface, views: tuple[View, View], samples: Index, images: Index) -> Evidence:
@@ -55,11 +55,12 @@ def evidence(source: Surface, target: Surface, views: tuple[View, View], samples
     ours, theirs = (view.distance(min(FUNCTIONS, view.functions.shape[1])).embedding for view in views)
     here, there = (euclidean_distances(rows, rows) for rows in (ours[samples], theirs[images[samples]]))
     used = source.regular.usable
+    curvatures = source.squashed_curvature[used], target.squashed_curvature[images[used]]
     return Evidence(
         stress=float(np.abs(here - there).mean() / here.mean()),
-        bend=_correlation(source.bend[used], target.bend[images[used]], source.areas[used]),
+        curvature=_correlation(*curvatures, source.areas[used]),
         orientation=vertex_map_orientation(source.mesh, target.mesh, images),
-        energy=_edge_energy(source, theirs[images]) / _edge_energy(source, ours),
+        dirichlet_energy=_edge_energy(source, theirs[images]) / _edge_energy(source, ours),
     )
 
 

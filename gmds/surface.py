@@ -133,7 +133,7 @@ class Surface:
         return self.regular.spectrum.mass
 
     @functools.cached_property
-    def bend(self) -> Array:
+    def squashed_curvature(self) -> Array:
         """Mean curvature (n,), squashed to [-1, 1] so that finger tips do not outvote the rest."""
         curvature = mean_curvature(self.mesh, DETAIL)
         typical = np.median(np.abs(curvature[self.regular.usable]))
