@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from geodesics import Mesh
-from gmds.triangulation import vertex_normals
+from geodesics import Mesh, vertex_normals
 
 Array = NDArray[np.float64]
 

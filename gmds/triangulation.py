@@ -1,32 +1,15 @@
-"""Even triangulations by edge collapse, and where points of one surface lie on another."""
+"""Even triangulations by edge collapse and edge flips."""
 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from geodesics import Mesh, SurfacePoints
 from geodesics.topology import boundary_vertices
-from gmds.algebra import closest_on_triangles
 
 Array = NDArray[np.float64]
 Faces = NDArray[np.int64]
-
-
-def closest_points(mesh: Mesh, positions: ArrayLike) -> SurfacePoints:
-    """The points of the mesh closest in space to `positions` (p, 3)."""
-    face, weights, _ = closest_on_triangles(np.asarray(positions, dtype=np.float64), mesh.vertices, mesh.faces)
-    return SurfacePoints(mesh, face, weights)
-
-
-def vertex_normals(mesh: Mesh) -> Array:
-    """Unit normals at the vertices (n, 3), faces weighted by area; zero where the faces cancel."""
-    a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
-    normals = np.zeros_like(mesh.vertices)
-    for k in range(3):
-        np.add.at(normals, mesh.faces[:, k], np.cross(b - a, c - a))
-    length = np.linalg.norm(normals, axis=1, keepdims=True)
-    return normals / np.where(length > 0, length, 1)
 
 
 def collapse(mesh: Mesh, n_vertices: int) -> tuple[Array, Faces]:
@@ -44,7 +27,7 @@ def collapse(mesh: Mesh, n_vertices: int) -> tuple[Array, Faces]:
     inside = ~boundary_vertices(Mesh(v, f))
     for _ in range(3):
         f = flip_towards_delaunay(v, f)
-        v[inside] = closest_points(mesh, _towards_neighbours(v, f)[inside]).positions
+        v[inside] = SurfacePoints.closest(mesh, _towards_neighbours(v, f)[inside]).positions
     return v, flip_towards_delaunay(v, f)
 
 

@@ -7,7 +7,6 @@ import numpy as np
 from geodesics import Mesh, SurfacePoints
 from geodesics.topology import vertex_components
 from gmds.deformations.extremities import edge_distances
-from gmds.triangulation import closest_points
 
 
 def holes(mesh: Mesh, count: int = 5, *, radius: float = 0.05, rng: int = 0) -> tuple[Mesh, SurfacePoints]:
@@ -27,7 +26,7 @@ def holes(mesh: Mesh, count: int = 5, *, radius: float = 0.05, rng: int = 0) -> 
     faces = faces[label == np.bincount(label).argmax()]
     kept, renumbered = np.unique(faces, return_inverse=True)
     result = Mesh(mesh.vertices[kept], renumbered.reshape(-1, 3))
-    truth = closest_points(result, mesh.vertices)
+    truth = SurfacePoints.closest(result, mesh.vertices)
     face, barycentric = truth.face.copy(), truth.barycentric.copy()
     exact = SurfacePoints.at_vertices(result, np.arange(result.n_vertices))
     face[kept], barycentric[kept] = exact.face, exact.barycentric

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from geodesics import Mesh, SurfacePoints, intrinsic
+from geodesics import Mesh, SurfacePoints, intrinsic, vertex_normals
 from gmds.deformations.truths import moved
-from gmds.triangulation import vertex_normals
 
 
 def noise(mesh: Mesh, strength: float = 0.2, *, rng: int = 0) -> tuple[Mesh, SurfacePoints]:

@@ -9,7 +9,7 @@ import numpy as np
 from geodesics import Mesh, SurfacePoints
 from geodesics.errors import NotManifold
 from gmds.deformations.noise import mean_edge_length
-from gmds.triangulation import closest_points, collapse
+from gmds.triangulation import collapse
 
 
 def remeshing(
@@ -25,7 +25,7 @@ def remeshing(
     """
     if remesher is not None:
         result = remesher(mesh)
-        return result, closest_points(result, mesh.vertices)
+        return result, SurfacePoints.closest(result, mesh.vertices)
     import igl
 
     wanted = mesh.n_vertices if n_vertices is None else n_vertices
@@ -38,7 +38,7 @@ def remeshing(
         vertices, faces = igl.upsample(vertices, faces, 1)
     fine = Mesh(vertices, faces)
     shaken = fine.vertices + np.random.default_rng(rng).normal(0, 0.2 * mean_edge_length(fine), fine.vertices.shape)
-    fine = Mesh(closest_points(mesh, shaken).positions, fine.faces)
+    fine = Mesh(SurfacePoints.closest(mesh, shaken).positions, fine.faces)
     new, faces = collapse(fine, wanted)
     result = Mesh(new, faces)
-    return result, closest_points(result, mesh.vertices)
+    return result, SurfacePoints.closest(result, mesh.vertices)

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from geodesics import Mesh, SurfacePoints
+from geodesics import Mesh, SurfacePoints, vertex_normals
 from gmds.deformations.noise import mean_edge_length
 from gmds.deformations.truths import moved
-from gmds.triangulation import vertex_normals
 
 
 def shot_noise(mesh: Mesh, strength: float = 2.0, *, share: float = 0.01, rng: int = 0) -> tuple[Mesh, SurfacePoints]:

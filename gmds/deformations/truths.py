@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geodesics import Mesh, SurfacePoints
-from gmds.triangulation import closest_points
 
 Deformation = Callable[[Mesh], tuple[Mesh, SurfacePoints]]
 
@@ -32,7 +31,7 @@ def carried(points: SurfacePoints, truth: SurfacePoints) -> SurfacePoints:
     if same_faces and np.array_equal(truth.positions, truth.mesh.vertices):
         return SurfacePoints(truth.mesh, points.face, points.barycentric)
     corners = truth.positions[points.mesh.faces[points.face]]
-    return closest_points(truth.mesh, np.einsum("pk,pkj->pj", points.barycentric, corners))
+    return SurfacePoints.closest(truth.mesh, np.einsum("pk,pkj->pj", points.barycentric, corners))
 
 
 def compose(*deformations: Deformation) -> Deformation:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from geodesics import Mesh, SurfacePoints
 from gmds.shapes.skeleton import Body, Move
 from gmds.shapes.surface import fine_surface
-from gmds.triangulation import closest_points, collapse
+from gmds.triangulation import collapse
 
 
 class Figure(Mesh):
@@ -40,7 +40,7 @@ def figure(body: Body, moves: Mapping[str, Move], *, spacing: float, n_vertices:
         raise ValueError(f"n_vertices must be from 50 to {len(fine_rest) - 1}, not {n_vertices}")
     posed = Mesh(body.pose(fine_rest, moves), fine_faces)
     near, faces = collapse(posed, n_vertices)
-    rest = body.project(closest_points(posed, near).interpolate(fine_rest))
+    rest = body.project(SurfacePoints.closest(posed, near).interpolate(fine_rest))
     return Figure(body.pose(rest, moves), faces, rest)
 
 
@@ -54,5 +54,5 @@ def truth(source: Figure, target: Figure, *, mirrored: bool = False) -> SurfaceP
     `mirrored` gives the left/right flipped counterpart (y -> -y of the undeformed body).
     """
     places = source.rest * ([1, -1, 1] if mirrored else 1)
-    found = closest_points(Mesh(target.rest, target.faces), places)
+    found = SurfacePoints.closest(Mesh(target.rest, target.faces), places)
     return SurfacePoints(target, found.face, found.barycentric)
