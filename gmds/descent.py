@@ -29,13 +29,14 @@ SIDES = 6
 
 @dataclass(frozen=True, eq=False)
 class Descent:
-    """Where a descent is: the placement, its stress, the trust region, and what was last foretold."""
+    """Where a descent is: the placement, its stress, the trust region, and by how much the linearised problem
+    last predicted the stress to fall."""
 
     here: Placement
     stress: float
     radius: float
     iteration: int = 0
-    foretold: float = np.inf
+    predicted: float = np.inf
     status: Status = Status.ITERATION_LIMIT
 
 
@@ -47,7 +48,7 @@ def descend(
     max_iterations: int,
     report: Callable[[int], None],
 ) -> Descent:
-    """Lower the stress until the linearised problem foretells less than `tolerance` times the stress.
+    """Lower the stress until the linearised problem predicts less than `tolerance` times the stress.
 
     Free: points walk across faces. Walled: each step keeps every point in its face, where the linearisation is good,
     and points that end on an edge are turned over to the other face before the next.
@@ -59,12 +60,12 @@ def descend(
         jacobian = here.walled_jacobian if walled else here.jacobian
         if stress <= negligible:
             return Descent(here, stress, radius, iteration, 0.0, Status.CONVERGED)
-        step, foretold = _foretold(here, stress, jacobian, loss, radius)
-        if not np.isfinite(foretold):
+        step, predicted = _predicted(here, stress, jacobian, loss, radius)
+        if not np.isfinite(predicted):
             return Descent(here, stress, radius, iteration, np.inf, Status.STALLED)
-        if foretold <= tolerance * stress:
+        if predicted <= tolerance * stress:
             wide = max(radius, CERTIFIED) if walled else radius
-            quiet.append(max(foretold, _foretold(here, stress, jacobian, loss, wide)[1] if wide > radius else 0.0))
+            quiet.append(max(predicted, _predicted(here, stress, jacobian, loss, wide)[1] if wide > radius else 0.0))
             other, turned = turned_over(here.points)
             if not walled or not turned.any() or len(quiet) >= SIDES:
                 flat = max(quiet) <= 10 * tolerance * stress
@@ -72,36 +73,36 @@ def descend(
             here = here.problem.at(other)
             continue
         quiet = []
-        there, agreement = _tried(here, stress, jacobian.displacement(step), foretold, loss, walled)
-        radius = _resized(radius, agreement)
-        if agreement > 0:
+        there, ratio = _tried(here, stress, jacobian.displacement(step), predicted, loss, walled)
+        radius = _resized(radius, ratio)
+        if ratio > 0:
             here, stress = there, loss.value(there.residuals)
         if radius <= (SHORTEST if walled else FREE):
-            return Descent(here, stress, radius, iteration, foretold, Status.STALLED)
+            return Descent(here, stress, radius, iteration, predicted, Status.STALLED)
         report(iteration)
     return Descent(here, stress, radius, max_iterations, np.inf, Status.ITERATION_LIMIT)
 
 
-def _foretold(here: Placement, stress: float, jacobian: Jacobian, loss: Loss, radius: float) -> tuple[Array, float]:
+def _predicted(here: Placement, stress: float, jacobian: Jacobian, loss: Loss, radius: float) -> tuple[Array, float]:
     """The step of the loss, and by how much it lowers the stress of the linearised problem."""
     step = loss.step(jacobian, here.residuals, radius)
     return step, stress - loss.value(here.residuals + jacobian.apply(step))
 
 
 def _tried(
-    here: Placement, stress: float, displacement: Array, foretold: float, loss: Loss, walled: bool
+    here: Placement, stress: float, displacement: Array, predicted: float, loss: Loss, walled: bool
 ) -> tuple[Placement, float]:
-    """The placement after the walk, and its gain as a share of what was foretold.
+    """The placement after the walk, and its gain as a share of what was predicted.
 
     A poor step is tried again without the points whose own residuals grew; then the share is at most 1/2.
     """
     end = walk(here.points, displacement, walled=walled)
     there = here.problem.at(turned_over(end)[0] if walled else end)
-    agreement = (stress - loss.value(there.residuals)) / foretold
-    if agreement > 0.25:
-        return there, agreement
+    ratio = (stress - loss.value(there.residuals)) / predicted
+    if ratio > 0.25:
+        return there, ratio
     there = _without_setbacks(here, there)
-    return there, min((stress - loss.value(there.residuals)) / foretold, 0.5)
+    return there, min((stress - loss.value(there.residuals)) / predicted, 0.5)
 
 
 def _without_setbacks(here: Placement, there: Placement) -> Placement:
@@ -109,9 +110,9 @@ def _without_setbacks(here: Placement, there: Placement) -> Placement:
     return here.problem.at(mixed(there.shares < here.shares, there.points, here.points))
 
 
-def _resized(radius: float, agreement: float) -> float:
-    """Twice the radius where the linearisation foretold the gain well, a half or a quarter where it did not."""
-    factor = 2.0 if agreement > 0.75 else 1.0 if agreement > 0.25 else 0.5 if agreement > 0 else 0.25
+def _resized(radius: float, ratio: float) -> float:
+    """Twice the radius where the linearisation predicted the gain well, a half or a quarter where it did not."""
+    factor = 2.0 if ratio > 0.75 else 1.0 if ratio > 0.25 else 0.5 if ratio > 0 else 0.25
     return float(np.clip(factor * radius, SHORTEST, LONGEST))
 
 
@@ -129,7 +130,7 @@ class Settler:
             radius = float(np.clip(2 * np.sqrt(np.mean(here.residuals**2)), SHORTEST, LONGEST))
         start = Descent(here, self.loss.value(here.residuals), radius)
         free = descend(start, self.loss, False, self.tolerance, max_iterations, self.report)
-        if free.status is Status.ITERATION_LIMIT or free.foretold == 0:
+        if free.status is Status.ITERATION_LIMIT or free.predicted == 0:
             return free
         again = replace(free, radius=min(radius, WALLED))
         return descend(again, self.loss, True, self.tolerance, max_iterations, self.report)

@@ -60,7 +60,7 @@ def remarch(start: Placement, settle: Settler, max_iterations: int, max_rounds: 
     """Let `settle` lower the stress with frozen fields, march anew, keep what holds; at most `max_rounds` times.
 
     Ends when the frozen problem promises less than the tolerance, or what it promises does not come true even for
-    single short steps. `foretold` of the answer is all that the last frozen problem promised and did not keep.
+    single short steps. `predicted` of the answer is all that the last frozen problem promised and did not keep.
     """
     loss, here, iteration = settle.loss, start, 0
     stress, radius = loss.value(start.residuals), None
@@ -74,8 +74,8 @@ def remarch(start: Placement, settle: Settler, max_iterations: int, max_rounds: 
         if gain > 0:
             here, stress = there, loss.value(there.residuals)
         ended = last.status is not Status.ITERATION_LIMIT
-        unkept = promised - max(gain, 0.0) + (last.foretold if ended else 0.0)
-        answer = replace(last, here=here, stress=stress, iteration=iteration, foretold=unkept)
+        unkept = promised - max(gain, 0.0) + (last.predicted if ended else 0.0)
+        answer = replace(last, here=here, stress=stress, iteration=iteration, predicted=unkept)
         if ended and promised <= settle.tolerance * stress:
             return replace(answer, status=last.status)
         if gain <= 0 and radius is not None and radius < 1e-3:
@@ -83,7 +83,7 @@ def remarch(start: Placement, settle: Settler, max_iterations: int, max_rounds: 
         if iteration >= max_iterations:
             break
         radius = None if gain > 0 else 0.05 if radius is None else radius / 8
-    return replace(answer, foretold=np.inf, status=Status.ITERATION_LIMIT)
+    return replace(answer, predicted=np.inf, status=Status.ITERATION_LIMIT)
 
 
 def frozen(here: Placement) -> Placement:

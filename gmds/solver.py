@@ -51,7 +51,7 @@ def solve(
 
     Each of at most `max_iterations` rounds linearises the distances at the points, asks the loss for a step within
     the trust region, walks the points straight across the faces, and keeps them there if the stress falls; else the
-    region shrinks. When the linearised problem foretells less than `tolerance` times the stress, or no step helps, a
+    region shrinks. When the linearised problem predicts less than `tolerance` times the stress, or no step helps, a
     second descent keeps every point in its face, in each of the faces in turn for points on edges and vertices, where
     the distances have kinks. The stress never rises. Fields of geodesic distances stay frozen through both descents
     and are then marched anew, until that brings nothing. `progress` is called with a stage and a fraction.
@@ -72,7 +72,7 @@ def solve(
         state = remarch(here, settle, max_iterations)
     else:
         state = settle(here, max_iterations)
-    certificate = state.foretold / state.stress if state.stress > 0 else 0.0
+    certificate = state.predicted / state.stress if state.stress > 0 else 0.0
     return Solution(
         state.here.points, state.stress, state.here.residuals, state.status, certificate, state.radius, state.iteration
     )

@@ -12,9 +12,7 @@ if TYPE_CHECKING:
 
 METRICS = ("embedded", "scale-invariant", "min-curvature", "equi-affine", "affine")
 DISTANCES = ("biharmonic", "commute-time", "diffusion", "geodesic")
-LOSSES = ("least-squares", "huber", "minimax")
-EIGENPAIRS = 100
-DIFFUSION_TIME = 3e-3  # in units of the area; what match itself compares
+LOSSES = ("least-squares", "huber", "power", "minimax")
 
 metric_option = click.option("--metric", type=click.Choice(METRICS), help="Metric in which distances are measured.")
 distance_option = click.option("--distance", type=click.Choice(DISTANCES), help="Distance that the map preserves.")
@@ -26,21 +24,21 @@ def chosen_distance(metric: str | None, distance: str | None) -> Callable[[Mesh]
     if metric is None and distance is None:
         return None
     import geodesics
+    from gmds.candidates import TIME
+    from gmds.surface import EIGENFUNCTIONS
 
     measure = getattr(geodesics, (metric or "scale-invariant").replace("-", "_"))
-    kind = distance or "diffusion"
+    spectral: dict[str, Callable[[geodesics.Spectrum], Any]] = {
+        "biharmonic": geodesics.BiharmonicDistance,
+        "commute-time": geodesics.CommuteTimeDistance,
+        "diffusion": lambda spectrum: geodesics.DiffusionDistance(spectrum, TIME),  # the time that match compares
+    }
 
     def build(mesh: Mesh) -> Any:
-        if kind == "geodesic":
+        if distance == "geodesic":
             return geodesics.GeodesicDistance(measure(mesh))
-        spectrum = geodesics.eigenpairs(measure(mesh), min(EIGENPAIRS, mesh.n_vertices - 1))
-        if kind == "diffusion":
-            return geodesics.DiffusionDistance(spectrum, DIFFUSION_TIME)
-        return (
-            geodesics.CommuteTimeDistance(spectrum)
-            if kind == "commute-time"
-            else geodesics.BiharmonicDistance(spectrum)
-        )
+        spectrum = geodesics.eigenpairs(measure(mesh), min(EIGENFUNCTIONS, mesh.n_vertices - 1))
+        return spectral[distance or "diffusion"](spectrum)
 
     return build
 
@@ -51,4 +49,5 @@ def chosen_loss(name: str | None) -> Any:
         return None
     import gmds
 
-    return {"least-squares": gmds.LeastSquares, "huber": gmds.Huber, "minimax": gmds.Minimax}[name]()
+    losses = {"least-squares": gmds.LeastSquares, "huber": gmds.Huber, "power": gmds.Power, "minimax": gmds.Minimax}
+    return losses[name]()
