@@ -13,17 +13,21 @@ from gmds.surface import View
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
+PER_FUNCTION = 3  # samples that each eigenfunction needs: a fit to fewer is torn between them
+FEWEST = 8  # eigenfunctions that are used all the same, if there are as many samples
 ROUNDS = 8  # looks from vertex to vertex for the closest point
 
 
 def extend(source: View, target: View, samples: Index, placed: SurfacePoints, count: int) -> SurfacePoints:
     """The points of the target, one for each source vertex, that continue samples (p,) placed at p points.
 
-    A functional map of `count` eigenfunctions is fitted to the placed samples; each vertex then goes to the closest
-    point of the target's surface in the space of eigenfunctions, inside a triangle if need be. In commute-time
-    coordinates this is trilateration: the point whose distances to the placed samples are right.
+    A functional map of at most `count` eigenfunctions, and at most one for every three samples, is fitted to the placed
+    samples; each vertex then goes to the closest point of the target's surface in the space of eigenfunctions, inside a
+    triangle if need be. In commute-time coordinates this is trilateration: the point whose distances to the placed
+    samples are right.
     """
-    k = min(count, source.functions.shape[1], target.functions.shape[1])
+    p = len(np.unique(samples))
+    k = min(count, max(p // PER_FUNCTION, min(p, FEWEST)), source.functions.shape[1], target.functions.shape[1])
     ours, theirs = source.functions[:, :k], target.functions[:, :k]
     matrix = functional_map(ours[samples], placed.interpolate(theirs))
     return closest_points(target, theirs @ matrix.T, ours)

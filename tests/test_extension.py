@@ -126,3 +126,25 @@ def test_vertices_on_no_face_are_nobody_s_closest_point() -> None:
     points = closest_points(view, view.functions, np.zeros((4, view.functions.shape[1])))
     assert np.isin(points.nearest_vertices(), view.usable).all()
     assert isinstance(points.mesh, Mesh)
+
+
+@pytest.mark.parametrize("count", [12, 30, 90])
+def test_few_samples_that_are_not_quite_right_do_not_tear_the_map(count: int) -> None:
+    view = surface(bumpy()).regular
+    places, samples = view.mesh.vertices, view.samples(count)
+    noise = np.random.default_rng(2).normal(0, 0.03, (count, 3))  # of the square root of the area
+    placed = SurfacePoints.closest(view.mesh, places[samples] + noise)
+    points = extend(view, view, samples, placed, 60)
+    assert np.linalg.norm(points.positions - places, axis=1).mean() < 0.06
+    edges = points.positions[view.mesh.faces] - points.positions[np.roll(view.mesh.faces, 1, axis=1)]
+    true = places[view.mesh.faces] - places[np.roll(view.mesh.faces, 1, axis=1)]
+    assert (edges**2).sum() < 2 * (true**2).sum()
+
+
+@pytest.mark.parametrize("count", [1, 3])
+def test_hardly_any_samples_still_give_a_point_for_every_vertex(count: int) -> None:
+    view = surface(bumpy()).regular
+    samples = view.samples(count)
+    points = extend(view, view, samples, SurfacePoints.at_vertices(view.mesh, samples), 60)
+    assert len(points) == bumpy().n_vertices
+    assert np.isfinite(points.positions).all()
