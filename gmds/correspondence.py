@@ -22,7 +22,6 @@ class MatchStatus(Enum):
     """How far a map can be trusted, best first; the value is a sentence for people."""
 
     GOOD = "The map preserves distances well and no other map does nearly as well."
-    PARTIAL = "Parts of the source have no counterpart in the target; see `valid`."
     AMBIGUOUS = "Another map, for instance the mirrored one, does nearly as well; see `candidates`."
     UNRATED = "Nobody has rated this map; see `distortion`."
     POOR = "Distances are badly preserved; the two surfaces may not be the same kind of thing."
@@ -37,8 +36,8 @@ class MatchStatus(Enum):
 class Candidate:
     """Another map worth looking at, for instance the mirrored one.
 
-    `points` has one row per source vertex; `stress` is what the embedding left over (small is good);
-    `orientation` is the area share of the source whose triangles keep their orientation, minus the rest, in [-1, 1].
+    `points` has one row per source vertex; `stress`: mean |d_S - d_Q| between samples over mean d_S (small is good);
+    `orientation` in [-1, 1]: the share of the image's area whose triangles keep their orientation, minus the rest.
     """
 
     points: SurfacePoints
@@ -52,7 +51,7 @@ class Correspondence:
 
     `points`: n SurfacePoints on the target. `valid` (n,) bool: False where the vertex has no counterpart; the point
     of such a row is finite and means nothing. `distortion` (n,) float64 >= 0: how badly distances from the vertex are
-    preserved, relative to the size of the target. `candidates`: other maps, best first. `meta`: parameters, seed,
+    preserved, over the mean distance; small is trustworthy. `candidates`: other maps, best first. `meta`: parameters, seed,
     versions and timings, as JSON can carry them.
 
     Raises `MapError` when a row is missing, not finite, or lies on another mesh than `target`.

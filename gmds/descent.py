@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -43,6 +44,7 @@ class Descent:
 def descend(
     state: Descent,
     loss: Loss,
+    *,
     walled: bool,
     tolerance: float,
     max_iterations: int,
@@ -129,8 +131,11 @@ class Settler:
         if radius is None:
             radius = float(np.clip(2 * np.sqrt(np.mean(here.residuals**2)), SHORTEST, LONGEST))
         start = Descent(here, self.loss.value(here.residuals), radius)
-        free = descend(start, self.loss, False, self.tolerance, max_iterations, self.report)
+        descent = functools.partial(
+            descend, loss=self.loss, tolerance=self.tolerance, max_iterations=max_iterations, report=self.report
+        )
+        free = descent(start, walled=False)
         if free.status is Status.ITERATION_LIMIT or free.predicted == 0:
             return free
         again = replace(free, radius=min(radius, WALLED))
-        return descend(again, self.loss, True, self.tolerance, max_iterations, self.report)
+        return descent(again, walled=True)
