@@ -50,10 +50,9 @@ def test_maps_are_whole_distinct_and_not_too_many(pair: SampledPair, found: list
         assert dense_gap(pair, one, other) > 0.8 * DISTINCT
 
 
-@pytest.mark.parametrize("count", [1, 2])
-def test_fewer_maps_are_the_first_of_more(pair: SampledPair, found: list[Index], count: int) -> None:
-    fewer = hypotheses(pair, ALL, count)
-    assert len(fewer) == min(count, len(found))
+def test_fewer_maps_are_the_first_of_more(pair: SampledPair, found: list[Index]) -> None:
+    fewer = hypotheses(pair, ALL, 2)
+    assert len(fewer) == min(2, len(found))
     assert all(np.array_equal(one, other) for one, other in zip(fewer, found, strict=False))
 
 
