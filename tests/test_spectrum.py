@@ -192,7 +192,7 @@ def test_lanczos_on_a_matrix_with_few_distinct_eigenvalues():
     n = 1200
     rng = np.random.default_rng(0)
     blocks = [scipy.linalg.qr(rng.standard_normal((6, 6)))[0] for _ in range(n // 6)]
-    parts = [q @ np.diag([0.0, 1, 1, 2, 2, 3]) @ q.T + 0.0 for q in blocks]
+    parts = [sp.csr_matrix(q @ np.diag([0.0, 1, 1, 2, 2, 3]) @ q.T) for q in blocks]
     chain = sp.diags([np.full(n - 1, -1e-13), np.full(n - 1, -1e-13)], [-1, 1])  # linked, but hardly
     values, vectors = smallest_eigenpairs((sp.block_diag(parts) + chain).tocsc(), 250, shift=1e-2)
     np.testing.assert_allclose(values, np.repeat([0, 1], [200, 50]), atol=1e-7)
