@@ -99,11 +99,10 @@ def proposals(pair: SurfacePair, starts: Sequence[Start]) -> Iterator[Hypothesis
     family = zip(source.views, target.views, strict=True)
     rough = [images for views in family for images in hypotheses(SampledPair.of(*views, sense), starts, PROPOSED)]
     begun = [aligned(images, FIRST) for images in rough]
-    begun += [aligned(images, FIRST) for images in unfound_partner(pair, begun)]
-    mirrored = min(begun, key=lambda h: h.evidence.loss(-sense))
+    begun += [aligned(images, FIRST) for images in partner(pair, begun)]
     best = sorted(begun, key=lambda h: h.evidence.loss(sense))[:GONE_ON]
     done = []
-    for hypothesis in best if any(h is mirrored for h in best) else [*best, mirrored]:
+    for hypothesis in [*best, *(h for h in mirrored(begun, sense) if h not in best)]:
         done.append(aligned(hypothesis.images, REST))
         yield done[-1]
     views = source.regular, target.regular  # an isometry needs no factor, and one that is nearly 1 costs precision
@@ -122,19 +121,26 @@ def proposals_in(pair: SurfacePair, views: tuple[View, View], starts: Sequence[S
     rough = hypotheses(SampledPair.of(*views, pair.sense), starts, 2 * PROPOSED)
     done = [refined(images) for images in rough]
     yield from done
-    yield from (refined(images) for images in unfound_partner(pair, done))
+    yield from (refined(images) for images in partner(pair, done))
 
 
-def unfound_partner(pair: SurfacePair, found: Sequence[Hypothesis]) -> list[Index]:
-    """The partner of the best map of the wrong orientation, where that is better than all of the right one.
+def partner(pair: SurfacePair, found: Sequence[Hypothesis]) -> list[Index]:
+    """The best map of either orientation, composed with a reflection of the source: as good a map of the other one.
 
-    Composed with a reflection of the source it is of the right orientation, and as good; no start may have found it.
+    Starts look for one orientation. Where they found the other one only, the partner is the map that was wanted;
+    where they found the right one, it is the mirrored answer. Nothing where the source has no reflection.
     """
-    mirrored = min(found, key=lambda h: h.evidence.loss(-pair.sense))
-    if pair.sense == 0 or mirrored.evidence.loss(-pair.sense) >= min(h.evidence.loss(pair.sense) for h in found):
+    if pair.sense == 0:
         return []
+    best = min(found, key=lambda h: min(h.evidence.loss(pair.sense), h.evidence.loss(-pair.sense)))
     reflection = mirror(pair.source, pair.source.regular)
-    return [] if reflection is None else [mirrored.images[reflection]]
+    return [] if reflection is None else [best.images[reflection]]
+
+
+def mirrored(found: Sequence[Hypothesis], sense: int) -> list[Hypothesis]:
+    """The best map of the orientation that is not wanted, if there is one."""
+    others = [h for h in found if sense * h.evidence.orientation < 0]
+    return [min(others, key=lambda h: h.evidence.loss(-sense))] if others else []
 
 
 def distinct(found: Sequence[Hypothesis], count: int, sense: int) -> list[Hypothesis]:

@@ -17,8 +17,8 @@ def functional_map(source_rows: Array, target_rows: Array) -> Array:
     """The matrix C (k, l) with source_rows C = target_rows in the least-squares sense (Ovsjanikov et al. 2012).
 
     Rows are eigenfunctions at corresponding points, (p, k) of the source and (p, l) of the target: column j of C writes
-    target function j, pulled back by the map, in source functions. A source point with row x then corresponds to the
-    target point whose row y makes C y nearest to x; the other way round would want C orthogonal.
+    target function j, pulled back by the map, in source functions. A source point with row x is sent to the target
+    point whose row y makes C y nearest to x, as in ZoomOut; y nearest to C^T x does much worse unless C is orthogonal.
     """
     return np.asarray(np.linalg.lstsq(source_rows, target_rows, rcond=None)[0], dtype=np.float64)
 

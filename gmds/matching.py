@@ -11,7 +11,7 @@ from geodesics.threads import on_one_blas_thread
 from gmds import initialization
 from gmds._validation import check_sample_count, suggest_keywords
 from gmds.answer import answer
-from gmds.candidates import Hypothesis, Start, SurfacePair, distinct, embed, proposals, proposals_in
+from gmds.candidates import Hypothesis, Start, SurfacePair, distinct, embed, mirrored, proposals, proposals_in
 from gmds.correspondence import Correspondence
 from gmds.initialization.landmarks import landmarks as from_landmarks
 from gmds.landmarks import landmark_vertices
@@ -60,7 +60,8 @@ def match(  # noqa: PLR0913 - the signature is a promise
 
     report("measuring", 0.0)
     pair = SurfacePair(measure(source), measure(target), sense, known)
-    count = SAMPLES if n_samples is None else check_sample_count(n_samples, source)
+    most = len(pair.source.regular.usable)
+    count = min(SAMPLES, most) if n_samples is None else check_sample_count(n_samples, source)
     starts: list[Start] = list(initialization.ALL)
     if known is not None:
         starts = [from_landmarks(*known), *(starts if len(known[0]) < ENOUGH else ())]
@@ -74,7 +75,7 @@ def match(  # noqa: PLR0913 - the signature is a promise
         report("refining", 0.5 + 0.25 * min(i / 8, 1))
         proposed.append(hypothesis)
     chosen = distinct(proposed, EMBEDDED, sense)
-    chosen += [h for h in distinct(proposed, 1, -sense) if h not in chosen]  # the mirrored answer, to show
+    chosen += [h for h in mirrored(proposed, sense) if h not in chosen]  # to show what else there is
     placed = []
     for i, hypothesis in enumerate(chosen):
         report("embedding", 0.75 + 0.2 * i / len(chosen))
