@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +13,7 @@ if TYPE_CHECKING:
 
 METRICS = ("embedded", "scale-invariant", "min-curvature", "equi-affine", "affine")
 DISTANCES = ("biharmonic", "commute-time", "diffusion", "geodesic")
+SMOOTHING = 4e-2  # of the curvature: alone, the metric wants large features (chosen on development_pairs.py)
 LOSSES = ("least-squares", "huber", "power", "minimax")
 
 metric_option = click.option("--metric", type=click.Choice(METRICS), help="Metric in which distances are measured.")
@@ -28,6 +30,8 @@ def chosen_distance(metric: str | None, distance: str | None) -> Callable[[Mesh]
     from gmds.surface import EIGENFUNCTIONS
 
     measure = getattr(geodesics, (metric or "scale-invariant").replace("-", "_"))
+    if metric in (None, "scale-invariant"):
+        measure = functools.partial(measure, smoothing=SMOOTHING)
     spectral: dict[str, Callable[[geodesics.Spectrum], Any]] = {
         "biharmonic": geodesics.BiharmonicDistance,
         "commute-time": geodesics.CommuteTimeDistance,
