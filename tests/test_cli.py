@@ -228,7 +228,8 @@ def test_an_internal_error_is_admitted(pair: tuple[Path, Path], monkeypatch: pyt
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_interrupting_ends_with_130(number: signal.Signals, tmp_path: Path) -> None:
     code = (
-        "import gmds, time\n"
+        "import gmds, signal, time\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"  # a parent in the background ignores it
         "from gmds.cli import main\n"
         "def match(*a, **k):\n    print('ready', flush=True)\n    time.sleep(60)\n"
         "gmds.match = match\n"
@@ -248,7 +249,10 @@ def test_interrupting_ends_with_130(number: signal.Signals, tmp_path: Path) -> N
     assert child.stdout.readline() == "ready\n"
     started = time.monotonic()
     os.kill(child.pid, number)
-    _, errors = child.communicate(timeout=10)
+    try:
+        _, errors = child.communicate(timeout=10)
+    finally:
+        child.kill()
     assert child.returncode == 130
     assert time.monotonic() - started < 2
     assert "Traceback" not in errors
