@@ -5,6 +5,7 @@ Nothing is copied or downloaded: a folder is given by its path, and recognised b
 
 from __future__ import annotations
 
+import functools
 import json
 import re
 from collections.abc import Callable, Sequence
@@ -14,7 +15,15 @@ from pathlib import Path
 from geodesics.errors import FormatError
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
-from gmds.truth_files import BadTruth, Indices, points_at, read_truth_npz, read_vts, shared_landmarks
+from gmds.truth_files import (
+    BadTruth,
+    Indices,
+    missing_landmarks,
+    points_at,
+    read_truth_npz,
+    read_vts,
+    shared_landmarks,
+)
 
 Truth = tuple[Indices, SurfacePoints, SurfacePoints | None]
 TruthReader = Callable[[Mesh, Mesh], Truth]
@@ -31,6 +40,7 @@ class Pair:
     """Two mesh files and their truth.
 
     `truth(source, target)` gives source vertices (p,), p points of the target, and p flipped points, or None for these.
+    `missing()` gives source vertices (q,) that have no counterpart in the target, where the data says so.
     """
 
     name: str
@@ -38,6 +48,7 @@ class Pair:
     target: Path
     truth: TruthReader
     group: str = ""
+    missing: Callable[[], Indices] | None = None
 
 
 def dataset_pairs(folder: Path, listing: Path | None = None) -> list[Pair]:
@@ -103,9 +114,11 @@ def _scaled_pair(root: Path, entry: dict[str, str]) -> Pair:
 
 
 def _shrec_pair(folder: Path, group: str, source: str, target: str) -> Pair:
+    here, there = (folder / "gts" / f"{name}.mat" for name in (source, target))
+
     def truth(source_mesh: Mesh, target_mesh: Mesh) -> Truth:
-        source_file, target_file = (folder / "gts" / f"{name}.mat" for name in (source, target))
-        return *shared_landmarks(source_file, target_file, target_mesh), None
+        return *shared_landmarks(here, there, target_mesh), None
 
     source_file, target_file = (folder / "models" / f"{name}.obj" for name in (source, target))
-    return Pair(f"{source}-{target}", source_file, target_file, truth, group)
+    missing = functools.partial(missing_landmarks, here, there)
+    return Pair(f"{source}-{target}", source_file, target_file, truth, group, missing)

@@ -15,6 +15,8 @@ from gmds.correspondence import Correspondence
 
 Indices = NDArray[np.int64]
 
+HUMP = 12  # landmark of camels that sits where other animals have nothing
+
 
 class BadTruth(FormatError):
     """A truth file that can not be read or does not fit its mesh."""
@@ -57,6 +59,15 @@ def shared_landmarks(source_path: Path, target_path: Path, target: Mesh) -> tupl
     target_ids, _, faces, weights = read_landmarks_mat(target_path)
     _, here, there = np.intersect1d(ids, target_ids, return_indices=True)
     return vertices[here], SurfacePoints(target, faces[there], weights[there])
+
+
+def missing_landmarks(source_path: Path, target_path: Path) -> Indices:
+    """Source vertices of the SHREC'20 landmarks that the target's .mat file does not have."""
+    ids, vertices, _, _ = read_landmarks_mat(source_path)
+    known = read_landmarks_mat(target_path)[0]
+    if _is_camel(target_path):  # where the others have this landmark camels have a place too, but it was not marked
+        known = np.append(known, HUMP)
+    return vertices[~np.isin(ids, known)]
 
 
 def read_vts(path: Path) -> Indices:
@@ -104,13 +115,17 @@ def read_landmarks_mat(path: Path) -> tuple[Indices, Indices, Indices, NDArray[n
         faces, weights = points[:, 0].astype(np.int64) - 1, np.maximum(points[:, 1:4].astype(np.float64), 0)
     except Exception as error:  # on damaged bytes scipy raises a dozen different types
         raise BadTruth(f"{path} must be a MATLAB file with points, verts and baryc ({error})") from error
-    keep = ~((ids == 12) & path.stem.startswith("camel"))
+    keep = ~((ids == HUMP) & _is_camel(path))
     return ids[keep], vertices[keep], faces[keep], weights[keep] / weights[keep].sum(axis=1, keepdims=True)
 
 
 def points_at(mesh: Mesh, indices: Indices | None) -> SurfacePoints | None:
     """The points at vertices `indices`, None for None."""
     return None if indices is None else SurfacePoints.at_vertices(mesh, indices)
+
+
+def _is_camel(path: Path) -> bool:
+    return path.stem.startswith("camel")
 
 
 def _is_map(path: Path) -> bool:

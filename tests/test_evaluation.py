@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ import pytest
 from shapes import bumpy_sphere, icosphere, joined, moved, rectangle
 
 from geodesics import Mesh, SurfacePoints
-from gmds.benchmarking import BenchmarkRow, benchmark, means, turned, write_csv
+from gmds.benchmarking import BenchmarkRow, benchmark, means, rank_correlation, turned, write_csv
 from gmds.correspondence import Correspondence
 from gmds.datasets import UnknownDataset, dataset_pairs
 from gmds.errors import MapError
@@ -193,12 +194,39 @@ def test_a_benchmark_from_folder_to_table(tmp_path: Path) -> None:
     for row in rows:
         assert row.direct == pytest.approx(0, abs=1e-9)
         assert row.sym is not None and row.sym > 5
-        assert (row.best, row.within_010) == (row.direct, 100)
+        assert (row.best, row.within_005, row.within_010, row.within_025) == (row.direct, 100, 100, 100)
+        assert (row.distortion_correlation, row.valid, row.missing_found) == (None, 100, None)
         assert row.coverage == pytest.approx(100)
     write_csv(tmp_path / "rows.csv", [*rows, *means(rows)])
     lines = (tmp_path / "rows.csv").read_text().splitlines()
     assert lines[0].startswith("pair,group,status,direct,sym,best,within_010,coverage,cpu_seconds")
     assert lines[-1].startswith("mean,all,2 of 2 pairs done,")
+
+
+def test_honesty_is_measured(tmp_path: Path) -> None:
+    """Distortion that ranks points as the error does; rows without a counterpart that are, or are not, called so."""
+    write_dataset(tmp_path / "set")
+    pair = replace(dataset_pairs(tmp_path / "set")[0], missing=lambda: np.array([3, 4, 5, 6]))
+
+    def shifted(source: Mesh, target: Mesh) -> Correspondence:
+        right = by_position(source, target)
+        order = np.argsort(np.linalg.norm(target.vertices - target.vertices[0], axis=1))
+        wrong = SurfacePoints.at_vertices(target, np.where(np.arange(162) < 60, order[0], right.vertex_map()))
+        error = np.linalg.norm(wrong.positions - right.points.positions, axis=1)
+        valid = np.arange(162) != 4
+        return Correspondence(source, target, wrong, valid, error**2)
+
+    row = next(benchmark([pair], shifted))
+    assert row.distortion_correlation is not None and row.distortion_correlation > 0.98
+    assert row.valid == pytest.approx(100 * 161 / 162)
+    assert row.missing_found == 25
+
+
+def test_rank_correlation_is_of_ranks() -> None:
+    x = np.random.default_rng(0).uniform(size=50)
+    assert rank_correlation(x, np.exp(9 * x)) == pytest.approx(1)
+    assert rank_correlation(x, -x) == pytest.approx(-1)
+    assert rank_correlation(x, np.ones(50)) is None
 
 
 def test_a_failing_pair_does_not_stop_the_others(tmp_path: Path) -> None:
