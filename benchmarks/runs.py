@@ -6,6 +6,7 @@ A row belongs to a version of the code; rows of another version are done again.
 from __future__ import annotations
 
 import argparse
+import contextlib
 import csv
 import functools
 import hashlib
@@ -24,10 +25,12 @@ from halves import DEVELOPMENT, HALVES, half_of, pairs_of
 from geodesics.io import atomic_write
 from gmds.benchmarking import FIGURES, BenchmarkRow, Matcher, benchmark
 from gmds.datasets import Pair
+from gmds.shapes import quadruped
 
 ROOT = Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "benchmarks" / "results"
 CODE = ["geodesics", "gmds", ":!gmds/cli", ":!gmds/page"]
+SMALL = 600  # vertices of the shape that workers warm up on
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
 
 Rows = dict[tuple[str, str], BenchmarkRow]  # (matcher, pair) -> row
@@ -82,8 +85,21 @@ def run(job: Job, path: Path, version: str, workers: int) -> Rows:
 
 
 def judge(find: Callable[[str], Matcher], folder: str, matcher: str, name: str) -> BenchmarkRow:
-    """One row, in a worker."""
-    return next(benchmark([_by_name(folder)[name]], find(matcher)))
+    """One row, in a worker; a fault of the matcher is told in it, so that the other pairs are still run."""
+    pair = _by_name(folder)[name]
+    warm_up(find, matcher)
+    try:
+        return next(benchmark([pair], find(matcher)))
+    except Exception as error:
+        return BenchmarkRow(pair.name, pair.group, f"failed: {type(error).__name__}: {error}")
+
+
+@functools.cache
+def warm_up(find: Callable[[str], Matcher], matcher: str) -> None:
+    """Match a small shape with itself once a process, so that no row pays for imports and compilation."""
+    mesh = quadruped(n_vertices=SMALL)
+    with contextlib.suppress(Exception):  # the real pairs will tell
+        find(matcher)(mesh, mesh)
 
 
 @functools.cache
