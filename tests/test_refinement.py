@@ -93,6 +93,15 @@ def test_upsampling_repairs_a_rough_map_to_a_renumbered_copy() -> None:
     assert np.array_equal(upsampled(ours.regular, theirs.regular, rough), place)
 
 
+def test_more_eigenfunctions_follow_a_map_more_closely() -> None:
+    mine, same = surface(animal()), np.arange(animal().n_vertices)
+    rough = disturbed(mine, same, 0.03)
+    ladders = (4,), (20, 30), (40, 60, 80, 100, 120)  # there are only 100
+    gaps = [off(mine, upsampled(mine.regular, mine.regular, rough, sizes), same) for sizes in ladders]
+    assert gaps[0] > 3 * gaps[1] > 9 * gaps[2]
+    assert gaps[2] < 1e-3
+
+
 def test_rounds_are_cut_off_at_the_eigenfunctions_there_are() -> None:
     small = measure(shapes.icosphere(1))
     images, view = Refiner(small, surface(bumpy())).aligned(np.arange(42), ALL)

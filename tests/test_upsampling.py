@@ -53,6 +53,17 @@ def test_the_identity_stays_when_refined_and_carried_to_all_vertices(pair: Sampl
     assert off.max() < 0.15 * np.ptp(vertices)
 
 
+def test_a_map_is_carried_to_some_vertices_as_to_all_and_to_goals_only(pair: SampledPair, same: np.ndarray) -> None:
+    rng = np.random.default_rng(4)
+    some = rng.choice(pair.source.mesh.n_vertices, 50, replace=False)
+    assert np.array_equal(pair.carried(same, some, pair.target.usable), pair.dense(same)[some])
+    goals = rng.choice(pair.target.usable, 80, replace=False)
+    found, place = pair.carried(same, some, goals), pair.target.mesh.vertices
+    assert np.isin(found, goals).all()
+    nearest = cdist(place[some], place[goals]).min(axis=1)
+    assert np.median(np.linalg.norm(place[found] - place[some], axis=1)) < 1.2 * np.median(nearest)
+
+
 def test_refinement_repairs_a_disturbed_map(pair: SampledPair, same: np.ndarray) -> None:
     rng = np.random.default_rng(1)
     places = pair.target.mesh.vertices[pair.target_samples]
