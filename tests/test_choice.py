@@ -8,87 +8,106 @@ import numpy as np
 import pytest
 import shapes
 from matched import bumpy, mirror_vertices, surface
+from numpy.typing import NDArray
 
-from gmds.choice import Evidence, evidence
+from geodesics import SurfacePoints
+from gmds.choice import HIT, Evidence, evidence
+from gmds.pair import Known, SurfacePair
+from gmds.registration import Residuals, registered
 from gmds.surface import Surface, measure
 
-FAIR = Evidence(stress=0.05, curvature=0.8, orientation=0.4, dirichlet_energy=1.3)
+Index = NDArray[np.int64]
+LEFT = Residuals(energy=0.3, misfit=0.01, misfit_back=0.02, curvature=0.8, curvature_back=0.7)
+WORSE = {"energy": 0.6, "misfit_back": 0.05, "curvature": 0.5, "curvature_back": 0.2}
+FAIR = Evidence(outline=LEFT, whole=LEFT, stress=0.05, orientation=0.4)
 LOBED = shapes.ellipsoid(2, (1.0, 1.4, 2.0))
 
 
-def weighed(mine: Surface, images: np.ndarray) -> Evidence:
-    views = mine.regular, mine.regular
-    return evidence(mine, mine, views, mine.regular.samples(100), images)
+def weighed(mine: Surface, images: Index, theirs: Surface | None = None, known: Known | None = None) -> Evidence:
+    """What speaks for a map of a surface to itself, or to its mirror image `theirs`."""
+    pair = SurfacePair(mine, mine if theirs is None else theirs, known, theirs is not None)
+    points = SurfacePoints.at_vertices(pair.target.mesh, images)
+    whole = registered(*pair.geometries, points.positions, growing=True, partial=True).residuals
+    return evidence(pair, (mine.regular, pair.target.regular), points, whole)
 
 
-@pytest.mark.parametrize("sense", [1, 0, -1])
-@pytest.mark.parametrize(("name", "worse"), [("stress", 0.08), ("curvature", 0.6), ("dirichlet_energy", 1.8)])
-def test_a_worse_part_is_a_larger_loss(name: str, worse: float, sense: int) -> None:
-    assert replace(FAIR, **{name: worse}).loss(sense) > FAIR.loss(sense)
+@pytest.mark.parametrize("part", ["outline", "whole"])
+@pytest.mark.parametrize("name", WORSE)
+def test_a_worse_part_is_a_larger_loss_and_each_adds_up(name: str, part: str) -> None:
+    worse = replace(LEFT, **{name: WORSE[name]})
+    found = replace(FAIR, **{part: worse}).loss - FAIR.loss
+    assert found > 0.1
+    assert found == pytest.approx(worse.loss - LEFT.loss)
 
 
-def test_orientation_counts_as_it_is_asked_for() -> None:
-    kept, mixed, turned = (replace(FAIR, orientation=score) for score in (0.4, 0.0, -0.4))
-    assert kept.loss(1) < mixed.loss(1) < turned.loss(1)
-    assert kept.loss(-1) > mixed.loss(-1) > turned.loss(-1)
-    assert kept.loss(0) == turned.loss(0) < mixed.loss(0)
-    assert kept.loss(1) == pytest.approx(turned.loss(-1))
-
-
-def test_the_loss_of_each_part_adds_up() -> None:
-    change = {"stress": 0.1, "curvature": 0.2, "dirichlet_energy": 2.0}
-    each = sum(replace(FAIR, **{name: value}).loss(1) - FAIR.loss(1) for name, value in change.items())
-    assert replace(FAIR, **change).loss(1) - FAIR.loss(1) == pytest.approx(each)
-
-
-def test_the_loss_is_finite_for_perfect_and_for_hopeless_maps() -> None:
-    for sense in (1, 0, -1):
-        for extreme in (Evidence(0.0, 1.0, 1.0, 0.0), Evidence(9.0, -1.0, -1.0, 99.0), Evidence(0.0, 0.0, 0.0, 1.0)):
-            assert np.isfinite(extreme.loss(sense))
+def test_a_landmark_that_is_missed_speaks_against_a_map() -> None:
+    losses = [replace(FAIR, landmark_error=miss).loss for miss in (0.0, HIT / 10, HIT, 10 * HIT)]
+    assert losses == sorted(losses) and losses[0] == FAIR.loss
+    assert losses[1] - losses[0] < 0.1 and losses[3] - losses[0] > 2
 
 
 def test_the_identity_has_nothing_against_it() -> None:
-    mine = surface(bumpy())
-    found = weighed(mine, np.arange(bumpy().n_vertices))
+    found = weighed(surface(bumpy()), np.arange(bumpy().n_vertices))
     assert found.stress == pytest.approx(0, abs=1e-7)
-    assert found.curvature == pytest.approx(1)
     assert found.orientation > 0.99
-    assert found.dirichlet_energy == pytest.approx(1)
+    assert found.landmark_error == 0
+    assert found.whole.energy < 1e-9
+    for left in (found.outline, found.whole):
+        assert left.energy < 1e-3 and left.misfit_back < 1e-3
+        assert left.curvature > 0.999 and left.curvature_back > 0.999
 
 
 def test_no_map_has_less_loss_than_the_identity() -> None:
     mine, rng = surface(bumpy()), np.random.default_rng(0)
     same = np.arange(bumpy().n_vertices)
-    best = weighed(mine, same).loss(1)
+    best = weighed(mine, same).loss
     near = bumpy().faces[np.searchsorted(np.sort(bumpy().faces.ravel()), same) // 3, 0]
     for other in (rng.permutation(same), np.zeros_like(same), near, same[::-1]):
-        assert weighed(mine, other).loss(1) > best + 0.5
+        assert np.isfinite(weighed(mine, other).loss)
+        assert weighed(mine, other).loss > best + 5
 
 
-def test_a_constant_map_has_no_energy_but_all_the_stress() -> None:
+def test_a_constant_map_has_all_the_stress_and_no_orientation() -> None:
     found = weighed(surface(bumpy()), np.zeros(bumpy().n_vertices, dtype=np.int64))
-    assert found.dirichlet_energy == 0
     assert found.stress == pytest.approx(1)
-    assert found.curvature == pytest.approx(0, abs=1e-9)
     assert found.orientation == 0
+    assert found.whole.misfit_back > 0.3  # nearly all of the target is left out
+    assert found.whole.curvature == pytest.approx(0, abs=1e-9)
 
 
-def test_a_torn_map_has_more_energy_than_a_whole_one() -> None:
-    mine = surface(bumpy())
-    torn = np.random.default_rng(1).permutation(bumpy().n_vertices)
-    assert weighed(mine, torn).dirichlet_energy > 3
+def test_a_torn_map_costs_more_energy_than_a_whole_one() -> None:
+    mine, same = surface(bumpy()), np.arange(bumpy().n_vertices)
+    torn = np.random.default_rng(1).permutation(same)
+    found = weighed(mine, torn)
+    assert found.whole.energy > 3 and found.outline.energy > 1
+    assert found.stress > 0.1
 
 
-def test_a_mirrored_map_loses_when_orientation_is_kept_and_wins_when_it_is_reversed() -> None:
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_a_mirrored_map_loses_though_distances_can_not_tell(axis: int) -> None:
     mine, same = measure(LOBED), np.arange(LOBED.n_vertices)
-    mirror = mirror_vertices(LOBED, 1)
-    kept, turned = weighed(mine, same), weighed(mine, mirror)
-    assert turned.stress == pytest.approx(0, abs=1e-6)  # distances and curvature can not tell them apart
-    assert turned.curvature == pytest.approx(1, abs=1e-6)
+    kept, turned = weighed(mine, same), weighed(mine, mirror_vertices(LOBED, axis))
+    assert turned.stress == pytest.approx(0, abs=1e-6)
+    assert turned.whole.curvature > 0.99
     assert turned.orientation == pytest.approx(-kept.orientation, abs=1e-6)
-    assert turned.loss(1) > kept.loss(1) + 1
-    assert turned.loss(-1) < kept.loss(-1) - 1
-    assert turned.loss(0) == pytest.approx(kept.loss(0), abs=0.1)
+    assert turned.loss > kept.loss + 3
+
+
+def test_where_orientation_is_to_be_reversed_the_mirrored_map_wins() -> None:
+    mine, image = measure(LOBED), measure(LOBED, reflected=True)
+    kept, turned = (weighed(mine, m, image) for m in (np.arange(LOBED.n_vertices), mirror_vertices(LOBED, 1)))
+    assert kept.orientation < -0.9 or turned.orientation < -0.9
+    assert kept.loss < turned.loss - 3 or turned.loss < kept.loss - 3
+    best = min(kept, turned, key=lambda found: found.loss)
+    assert best.orientation < -0.9 and best.whole.energy < 1e-9
+
+
+def test_landmarks_are_measured_from_where_they_belong() -> None:
+    mine, same = surface(bumpy()), np.arange(bumpy().n_vertices)
+    hit, miss = (np.array([3, 40]), np.array([3, 40])), (np.array([3, 40]), np.array([3, 90]))
+    assert weighed(mine, same, known=hit).landmark_error == 0
+    place = mine.mesh.vertices
+    assert weighed(mine, same, known=miss).landmark_error == pytest.approx(np.linalg.norm(place[90] - place[40]) / 2)
 
 
 def test_curvature_knows_the_inside_from_the_outside() -> None:
@@ -97,4 +116,4 @@ def test_curvature_knows_the_inside_from_the_outside() -> None:
     order = np.argsort(mine.squashed_curvature)
     upside_down = np.empty(len(order), dtype=np.int64)
     upside_down[order] = order[::-1]  # the most convex place goes to the most hollow one
-    assert weighed(mine, upside_down).curvature < -0.5
+    assert weighed(mine, upside_down).whole.curvature < -0.5
