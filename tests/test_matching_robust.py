@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -23,10 +25,16 @@ def checked(source: Mesh, target: Mesh) -> Correspondence:
     assert answer.points.face.shape == answer.valid.shape == answer.distortion.shape == (n,)
     assert np.isfinite(answer.points.positions).all()
     assert np.isfinite(answer.distortion).all() and (answer.distortion >= 0).all()
-    assert np.isfinite(list(answer.meta["evidence"].values())).all()
+    assert np.isfinite(list(numbers(answer.meta["evidence"]))).all()
     for candidate in answer.candidates:
         assert np.isfinite([candidate.stress, candidate.orientation]).all()
     return answer
+
+
+def numbers(told: Any) -> Iterator[float]:
+    """All numbers in a nest of dictionaries."""
+    for value in told.values():
+        yield from numbers(value) if isinstance(value, dict) else [value]
 
 
 def off(answer: Correspondence, positions: np.ndarray) -> np.ndarray:
