@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import platform
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from importlib.metadata import version
 from typing import Any
 
@@ -12,38 +13,38 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from geodesics import SurfacePoints
-from geodesics.euclidean import euclidean_distances
 from gmds import __version__
-from gmds.candidates import FUNCTIONS, Embedded, SurfacePair
+from gmds.candidates import Embedded
 from gmds.correspondence import Candidate, Correspondence, MatchStatus
-from gmds.surface import Surface
 
 Array = NDArray[np.float64]
 
-POOR = 0.12  # relative stress above which distances count as badly kept
-BENT = 0.35  # correlation of curvature below which they do as well
-CLOSE = 0.3  # difference of log-likelihood, a residual, below which another map is as good
+POOR = 0.2  # relative stress above which distances count as badly kept
+BENT = 0.2  # correlation of curvature below which they do as well
+CLOSE = 0.7  # difference of log-likelihood below which another map may be the right one
+ALONE = 99.0  # the difference told where there is no other map
 DIFFERENT = 0.1  # mean distance between the images of two maps, over root area, that makes them two answers
-JUDGES = 100  # samples that distortion is measured against
+OFF = 0.5  # spacings of vertices beyond which a point is off the target
+NEAR = 2.0  # times its distance from the target: nearer to the boundary, it is beyond
+REGION = 2e-4  # heat time, in units of the area, that makes a region of vertices
+AROUND = 1e-2  # heat time over which distortion is averaged: errors reach farther than what causes them
 
 
-def answer(pair: SurfacePair, placed: Sequence[Embedded], meta: Mapping[str, Any]) -> Correspondence:
+def answer(placed: Sequence[Embedded], meta: Mapping[str, Any]) -> Correspondence:
     """The best map as a `Correspondence` between the original meshes, the others as its candidates."""
-    source, target = pair.source, pair.target
     best = placed[0]
-    valid = source.regular.spectrum.mass > 0
-    candidates = tuple(
-        Candidate(_original(source, target, h), h.evidence.stress, h.evidence.orientation) for h in placed[1:]
-    )
+    source, target, margin = best.pair.source, best.pair.target, _margin(placed)
+    evidence = {**asdict(best.evidence), "margin": min(margin, ALONE)}
+    candidates = tuple(Candidate(_original(e), e.evidence.stress, e.evidence.orientation) for e in placed[1:])
     return Correspondence(
         source=source.original,
         target=target.original,
-        points=_original(source, target, best),
-        valid=valid,
-        distortion=_distortion(source, best),
-        status=_status(placed, pair.sense),
+        points=_original(best),
+        valid=_valid(best),
+        distortion=_distortion(best),
+        status=_status(best, margin),
         candidates=candidates,
-        meta={**meta, "evidence": vars(best.evidence), "solver": best.solution.status.name, "versions": _versions()},
+        meta={**meta, "evidence": evidence, "solver": best.solution.status.name, "versions": _versions()},
     )
 
 
@@ -53,9 +54,9 @@ def _versions() -> dict[str, str]:
     return {"gmds": __version__, "python": platform.python_version(), **numeric}
 
 
-def _original(source: Surface, target: Surface, hypothesis: Embedded) -> SurfacePoints:
+def _original(embedded: Embedded) -> SurfacePoints:
     """The points on the original target; vertices that were left out go where the nearest one that was not went."""
-    points = hypothesis.points
+    source, target, points = embedded.pair.source, embedded.pair.target, embedded.points
     used = source.regular.usable
     row = np.arange(source.mesh.n_vertices)
     if len(used) < len(row):
@@ -66,31 +67,47 @@ def _original(source: Surface, target: Surface, hypothesis: Embedded) -> Surface
     return SurfacePoints(target.original, face, np.where(swapped, weight[:, [0, 2, 1]], weight))
 
 
-def _distortion(source: Surface, hypothesis: Embedded) -> Array:
-    """Mean |d_S - d_Q| (n,) from each vertex to the samples, over the mean d_S; 1 where there is no map."""
-    ours, theirs = hypothesis.views
-    k = min(FUNCTIONS, ours.functions.shape[1], theirs.functions.shape[1])
-    judges = ours.samples(JUDGES)
-    here, there = ours.distance(k).embedding, hypothesis.points.interpolate(theirs.distance(k).embedding)
-    d_source, d_target = (euclidean_distances(rows, rows[judges]) for rows in (here, there))
-    result = np.abs(d_source - d_target).mean(axis=1) / d_source[ours.usable].mean()
-    result[ours.spectrum.mass == 0] = 1.0
-    return result
+def _valid(embedded: Embedded) -> NDArray[np.bool_]:
+    """False (n,) at vertices of no area, and where the deformed source reaches beyond the boundary of the target.
+
+    A vertex does when it is off the target and the boundary is hardly farther from it than the target is; so does a
+    region (`REGION`) when most of it does.
+    """
+    (source, target), found = embedded.pair.geometries, embedded.deformation
+    used = source.areas > 0
+    edge = np.flatnonzero(target.boundary)
+    if len(edge) == 0:
+        return np.asarray(used, dtype=np.bool_)
+    gap = np.linalg.norm(found.y - embedded.points.positions, axis=1)
+    to_edge = cKDTree(target.mesh.vertices[edge]).query(found.y)[0]
+    spacing = np.sqrt(np.median(target.areas[target.usable]))
+    beyond = (gap > OFF * spacing) & (to_edge < NEAR * gap)
+    share = source.elasticity.smoother(REGION)(source.areas * beyond)
+    return np.asarray(used & (share < 0.5), dtype=np.bool_)
 
 
-def _status(placed: Sequence[Embedded], sense: int) -> MatchStatus:
-    """POOR where distances or curvature are badly kept, AMBIGUOUS where a quite different map is nearly as good."""
-    best = placed[0].evidence
-    if best.stress > POOR or best.curvature < BENT:
+def _distortion(embedded: Embedded) -> Array:
+    """Root of the elastic energy per area around each vertex (n,): the relative error of lengths; 1 where no map is."""
+    source = embedded.pair.geometries[0]
+    smooth = source.elasticity.smoother(AROUND)
+    result = np.sqrt(np.maximum(smooth(source.areas * embedded.deformation.strain), 0.0))
+    result[source.areas <= 0] = 1.0
+    return np.asarray(result, dtype=np.float64)
+
+
+def _status(best: Embedded, margin: float) -> MatchStatus:
+    """POOR where distances or curvature are badly kept, AMBIGUOUS where a quite different map is nearly as likely."""
+    if best.evidence.stress > POOR or best.evidence.whole.curvature < BENT:
         return MatchStatus.POOR
-    for other in placed[1:]:
-        close = other.evidence.loss(sense) - best.loss(sense) < CLOSE
-        if close and _gap(placed[0], other) > DIFFERENT:
-            return MatchStatus.AMBIGUOUS
-    return MatchStatus.GOOD
+    return MatchStatus.AMBIGUOUS if margin < CLOSE else MatchStatus.GOOD
+
+
+def _margin(placed: Sequence[Embedded]) -> float:
+    """How much more likely the best map is than any quite different one: the difference of log-likelihood."""
+    others = [other.evidence.loss for other in placed[1:] if _gap(placed[0], other) > DIFFERENT]
+    return min(others, default=np.inf) - placed[0].evidence.loss
 
 
 def _gap(one: Embedded, other: Embedded) -> float:
     """Mean distance in space between the images of two maps, over the square root of the target's area."""
-    mesh = one.views[1].mesh
-    return float(np.linalg.norm(mesh.vertices[one.images] - mesh.vertices[other.images], axis=1).mean())
+    return float(np.linalg.norm(one.points.positions - other.points.positions, axis=1).mean())

@@ -1,181 +1,159 @@
-"""Maps under consideration: proposed by the starts, refined, weighed, and embedded by the solver."""
+"""Maps under consideration: lifted from the outlines, refined, embedded by the solver, registered, and weighed."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geodesics import DiffusionDistance, Distance, SurfacePoints
-from gmds.choice import Evidence, evidence
+from gmds.choice import Evidence, evidence, outline_residuals
 from gmds.extension import extend
-from gmds.hypotheses import hypotheses
 from gmds.losses import Loss
-from gmds.problem import Problem, joined
-from gmds.refinement import ROUNDS, Refiner, upsampled
+from gmds.pair import SurfacePair
+from gmds.problem import Problem
+from gmds.proposals import Proposal
+from gmds.refinement import ROUNDS, upsampled
+from gmds.registration import COARSE, FINE, Registered, both_ways, register
+from gmds.registration import registered as as_it_is
 from gmds.solver import Solution, solve
-from gmds.surface import Surface, View
-from gmds.symmetries import mirror
-from gmds.upsampling import SampledPair
+from gmds.surface import View
 
+Array = NDArray[np.float64]
 Index = NDArray[np.int64]
-Start = Callable[[SampledPair], list[Index]]
 Measured = tuple[Distance, Distance]
-Known = tuple[Index, Index]
 
-PROPOSED = 6  # maps that each metric proposes
-GONE_ON = 6  # maps that go through all rounds of alignment
-FIRST, REST = (0,), tuple(range(1, len(ROUNDS)))  # rounds of alignment before and after the worse half is dropped
-SAMPLES = 500  # that carry a map through spectral upsampling
 FUNCTIONS = 60  # eigenfunctions of the dense map
 TIME = 3e-3  # of the diffusion distance that the solver compares, in units of the area
 ITERATIONS = 20
-WEIGHT = 10  # samples that a landmark is worth
-APART = 0.1  # mean gap, in the same distances, below which two maps are one
+REST = tuple(range(1, len(ROUNDS)))  # rounds of alignment of a map that is good already
+FINE_LADDER = (40, 50, 60, 70, 80, 90, 100)  # numbers of eigenfunctions for such a map
+REPEATS = 2  # more refinements, if each pays
+RETURNS = 4  # registrations there and back
+GAIN = 0.005  # share of the energy by which each must lower it
+CONGRUENT = 1e-9  # elastic energy below which a map is a congruence up to rounding
 
 
 @dataclass(frozen=True, eq=False)
-class SurfacePair:
-    """What is to be matched: two surfaces, the orientation wanted (`sense` 1 kept, -1 reversed, 0 either), landmarks.
+class Embedded:
+    """A map to `points` (n,) of the target, whose samples `solve` placed in the `views` of both surfaces."""
 
-    `known`: vertices of the source and those of the target they are known to correspond to, or None.
-    """
-
-    source: Surface
-    target: Surface
-    sense: int = 1
-    known: Known | None = None
-
-    def weighed(self, views: tuple[View, View], samples: Index, images: Index) -> Evidence:
-        """What speaks for a map (n,) to target vertices, with how far it misses the landmarks."""
-        found = evidence(self.source, self.target, views, samples, images)
-        if self.known is None:
-            return found
-        place = self.target.mesh.vertices
-        miss = np.linalg.norm(place[images[self.known[0]]] - place[self.known[1]], axis=1)
-        return replace(found, landmark_error=float(miss.mean()))
-
-    def with_landmarks(self, samples: Index, points: SurfacePoints) -> tuple[Index, SurfacePoints]:
-        """Placed samples with the landmarks added, often enough that the extension heeds them."""
-        if self.known is None:
-            return samples, points
-        ours, theirs = (np.repeat(side, WEIGHT) for side in self.known)
-        return np.concatenate([samples, ours]), joined(points, SurfacePoints.at_vertices(points.mesh, theirs))
-
-
-@dataclass(frozen=True, eq=False)
-class Hypothesis:
-    """A map under consideration: target vertices `images` (n,), and the `views` of both surfaces it is measured in."""
-
-    images: Index
+    pair: SurfacePair
+    points: SurfacePoints
     views: tuple[View, View]
+    solution: Solution
+    deformation: Registered
     evidence: Evidence
 
 
-@dataclass(frozen=True, eq=False)
-class Embedded(Hypothesis):
-    """A map whose samples were placed by `solve`, with this `solution`, and extended to all vertices: `points` (n,)."""
-
-    points: SurfacePoints
-    solution: Solution
-
-
-def proposals(pair: SurfacePair, starts: Sequence[Start]) -> Iterator[Hypothesis]:
-    """Maps from starts in each metric of the family |K|^a g, each then aligned by its own factor.
-
-    All go through the first round of alignment; the better ones, and the best of the other orientation, through the
-    others; the best also comes refined in the metric of space.
-    """
-    source, target, sense = pair.source, pair.target, pair.sense
-    refiner, samples = Refiner(source, target), source.regular.samples(SAMPLES)
-
-    def aligned(images: Index, rounds: Sequence[int]) -> Hypothesis:
-        images, view = refiner.aligned(images, rounds)
-        views = source.regular, view
-        return Hypothesis(images, views, pair.weighed(views, samples, images))
-
-    family = zip(source.views, target.views, strict=True)
-    rough = [images for views in family for images in hypotheses(SampledPair.of(*views, sense), starts, PROPOSED)]
-    begun = [aligned(images, FIRST) for images in rough]
-    begun += [aligned(images, FIRST) for images in partner(pair, begun)]
-    best = sorted(begun, key=lambda h: h.evidence.loss(sense))[:GONE_ON]
-    done = []
-    for hypothesis in [*best, *(h for h in mirrored(begun, sense) if h not in best)]:
-        done.append(aligned(hypothesis.images, REST))
-        yield done[-1]
-    views = source.regular, target.regular  # an isometry needs no factor, and one that is nearly 1 costs precision
-    images = upsampled(*views, min(done, key=lambda h: h.evidence.loss(sense)).images)
-    yield Hypothesis(images, views, pair.weighed(views, samples, images))
-
-
-def proposals_in(pair: SurfacePair, views: tuple[View, View], starts: Sequence[Start]) -> Iterator[Hypothesis]:
-    """Maps from starts in one given metric, refined in the same."""
-    samples = views[0].samples(SAMPLES)
-
-    def refined(images: Index) -> Hypothesis:
-        images = upsampled(*views, images)
-        return Hypothesis(images, views, pair.weighed(views, samples, images))
-
-    rough = hypotheses(SampledPair.of(*views, pair.sense), starts, 2 * PROPOSED)
-    done = [refined(images) for images in rough]
-    yield from done
-    yield from (refined(images) for images in partner(pair, done))
-
-
-def partner(pair: SurfacePair, found: Sequence[Hypothesis]) -> list[Index]:
-    """The best map of either orientation, composed with a reflection of the source: as good a map of the other one.
-
-    Starts look for one orientation. Where they found the other one only, the partner is the map that was wanted;
-    where they found the right one, it is the mirrored answer. Nothing where the source has no reflection.
-    """
-    if pair.sense == 0:
-        return []
-    best = min(found, key=lambda h: min(h.evidence.loss(pair.sense), h.evidence.loss(-pair.sense)))
-    reflection = mirror(pair.source, pair.source.regular)
-    return [] if reflection is None else [best.images[reflection]]
-
-
-def mirrored(found: Sequence[Hypothesis], sense: int) -> list[Hypothesis]:
-    """The best map of the orientation that is not wanted, if there is one."""
-    others = [h for h in found if sense * h.evidence.orientation < 0]
-    return [min(others, key=lambda h: h.evidence.loss(-sense))] if others else []
-
-
-def distinct(found: Sequence[Hypothesis], count: int, sense: int) -> list[Hypothesis]:
-    """The `count` best maps, best first, leaving out those that nearly repeat a better one."""
-    kept: list[Hypothesis] = []
-    for hypothesis in sorted(found, key=lambda h: h.evidence.loss(sense)):
-        if len(kept) < count and all(_gap(hypothesis, other) > APART for other in kept):
-            kept.append(hypothesis)
-    return kept
-
-
 def embed(
-    pair: SurfacePair, hypothesis: Hypothesis, loss: Loss, count: int, distances: Measured | None = None
+    pair: SurfacePair,
+    proposal: Proposal,
+    loss: Loss,
+    count: int,
+    given: tuple[tuple[View, View], Measured] | None = None,
 ) -> Embedded:
-    """The hypothesis after generalised multidimensional scaling of `count` samples, extended to every vertex.
+    """A proposal carried to all vertices: aligned, `count` samples embedded by `solve`, extended, and registered.
 
-    Distances are diffusion distances (3.1) in the views of the hypothesis, unless others are given.
+    Generalised multidimensional scaling compares diffusion distances (3.1) in the metric of the target in which the
+    map keeps area; or, in given views, the distances given, and then that embedding is the answer as it stands.
     """
-    ours, theirs = hypothesis.views
+    images = lifted(pair, proposal)
+    if given is None:
+        images, view = pair.refiner.aligned(images, range(len(ROUNDS)))
+        views = pair.source.regular, view
+        points, solution = placed(pair, images, views, loss, count, None)
+        deformation = registered(pair, points)
+        points = deformation.points
+    else:
+        views, distances = given
+        points, solution = placed(pair, upsampled(*views, images), views, loss, count, distances)
+        deformation = as_it_is(*pair.geometries, points.positions, growing=True, partial=True)
+    weighed = evidence(pair, views, points, proposal.registered.residuals, deformation.residuals)
+    return Embedded(pair, points, views, solution, deformation, weighed)
+
+
+def finished(best: Embedded) -> Embedded:
+    """The map refined further, for as long as the elastic energy of the deformation gets less.
+
+    It goes through spectral upsampling in the metric of space, or in the one in which it keeps area, and is registered
+    again. Where nothing grew the first is the better: it does not follow the errors of the map. Then the target is
+    registered to the source as well, and what both say is brought together.
+    """
+    pair, now = best.pair, best.deformation
+    if now.residuals.energy < CONGRUENT:
+        return best
+    regular = pair.source.regular, pair.target.regular
+
+    def in_space(points: SurfacePoints) -> Registered:
+        images = upsampled(*regular, points.nearest_vertices(), FINE_LADDER)
+        return registered(pair, SurfacePoints.at_vertices(pair.target.mesh, images))
+
+    def keeping_area(points: SurfacePoints) -> Registered:
+        images, _ = pair.refiner.aligned(points.nearest_vertices(), REST)
+        return registered(pair, SurfacePoints.at_vertices(pair.target.mesh, images))
+
+    way, trial = keeping_area, in_space(now.points)
+    if trial.residuals.energy < now.residuals.energy:
+        way, now = in_space, trial
+    for _ in range(REPEATS):
+        trial = way(now.points)
+        if trial.residuals.energy >= now.residuals.energy:
+            break
+        now = trial
+    for _ in range(RETURNS):
+        trial = both_ways(*pair.geometries, now)
+        if trial.residuals.energy >= (1 - GAIN) * now.residuals.energy:
+            break
+        now = trial
+    weighed = evidence(pair, best.views, now.points, best.evidence.outline, now.residuals)
+    return replace(best, points=now.points, deformation=now, evidence=weighed)
+
+
+def lifted(pair: SurfacePair, proposal: Proposal) -> Index:
+    """For every source vertex the target vertex (n,) that the proposal's deformation brings it closest to."""
+    (source, target), outline = pair.geometries, pair.outlines[0]
+    y = outline.carried(proposal.registered.y, source.mesh.vertices)
+    return target.usable[target.tree.query(source.moved_features(y))[1]]
+
+
+def placed(
+    pair: SurfacePair, images: Index, views: tuple[View, View], loss: Loss, count: int, distances: Measured | None
+) -> tuple[SurfacePoints, Solution]:
+    """The map `images` (n,) after generalised multidimensional scaling of `count` samples, extended to every vertex."""
+    ours, theirs = views
     k = min(FUNCTIONS, ours.functions.shape[1], theirs.functions.shape[1])
     if distances is None:
         both = (ours.first(k), theirs.first(k))  # as many in one as in the other, or equal surfaces would differ
         distances = DiffusionDistance(both[0].spectrum, TIME), DiffusionDistance(both[1].spectrum, TIME)
-    here, there = distances
     samples = ours.samples(count)
-    problem = Problem(here, SurfacePoints.at_vertices(pair.source.mesh, samples), there)
-    start = SurfacePoints.at_vertices(pair.target.mesh, hypothesis.images[samples])
+    problem = Problem(distances[0], SurfacePoints.at_vertices(pair.source.mesh, samples), distances[1])
+    start = SurfacePoints.at_vertices(pair.target.mesh, images[samples])
     solution = solve(problem, start, loss, max_iterations=ITERATIONS)
-    points = extend(ours, theirs, *pair.with_landmarks(samples, solution.points), k)
-    images = points.nearest_vertices()
-    weighed = pair.weighed(hypothesis.views, samples, images)
-    return Embedded(images, hypothesis.views, weighed, points, solution)
+    return extend(ours, theirs, *pair.with_landmarks(samples, solution.points), k), solution
 
 
-def _gap(one: Hypothesis, other: Hypothesis) -> float:
-    """Mean distance between the images of two maps, over the mean distance from the centre."""
-    e = one.views[1].embedding
-    return float(np.linalg.norm(e[one.images] - e[other.images], axis=1).mean() / np.linalg.norm(e, axis=1).mean())
+def registered(pair: SurfacePair, points: SurfacePoints) -> Registered:
+    """The source deformed from where the map to `points` (n,) sends it; left there if that is a congruence already."""
+    source, target = pair.geometries
+    y = points.positions
+    same = as_it_is(source, target, y, growing=True, partial=True)
+    if same.residuals.energy < CONGRUENT:
+        return replace(same, points=points)
+    return register(source, target, y, (COARSE[0], *COARSE, *FINE), growing=True, partial=True)
+
+
+def mirrored(best: Embedded) -> Embedded | None:
+    """The map composed with a reflection of one of the surfaces, if there is one."""
+    pair = best.pair
+    ours, theirs = pair.reflections
+    if ours is not None:
+        points = best.points[ours]
+    elif theirs is not None:
+        points = SurfacePoints.at_vertices(pair.target.mesh, theirs[best.points.nearest_vertices()])
+    else:
+        return None
+    deformation = as_it_is(*pair.geometries, points.positions, growing=True, partial=True)
+    weighed = evidence(pair, best.views, points, outline_residuals(pair, points), deformation.residuals)
+    return replace(best, points=points, deformation=deformation, evidence=weighed)

@@ -17,7 +17,7 @@ EARLY = 3  # steps of refinement before the rest is dropped
 
 
 def hypotheses(pair: SampledPair, starts: Sequence[Callable[[SampledPair], list[Index]]], count: int) -> list[Index]:
-    """At most `count` dense maps (n,) to target vertices, all apart from each other, those of least stress first."""
+    """At most `count` sample maps, all apart from each other, those of least stress first."""
     begun = [pair.refined(images, COARSE[:EARLY]) for start in starts for images in start(pair)]
     begun = [begun[i] for i in _by_stress(pair, begun)[:TRIED]]
     done = [pair.refined(images, COARSE[EARLY:]) for images in begun]
@@ -25,7 +25,7 @@ def hypotheses(pair: SampledPair, starts: Sequence[Callable[[SampledPair], list[
     for i in _by_stress(pair, done):
         if len(kept) < count and all(pair.gap(done[i], other) > DISTINCT for other in kept):
             kept.append(done[i])
-    return [pair.dense(images) for images in kept]
+    return kept
 
 
 def _by_stress(pair: SampledPair, maps: list[Index]) -> Index:

@@ -11,17 +11,19 @@ from geodesics.threads import on_one_blas_thread
 from gmds import initialization
 from gmds._validation import check_sample_count, suggest_keywords
 from gmds.answer import answer
-from gmds.candidates import Hypothesis, Start, SurfacePair, distinct, embed, mirrored, proposals, proposals_in
+from gmds.candidates import Embedded, embed, finished, mirrored
 from gmds.correspondence import Correspondence
 from gmds.initialization.landmarks import landmarks as from_landmarks
 from gmds.landmarks import landmark_vertices
 from gmds.losses import LeastSquares, Loss
+from gmds.pair import SurfacePair
+from gmds.proposals import PROPOSED, Proposal, Start, distinct, proposals
 from gmds.surface import measure, view_of
 
 SAMPLES = 300
 ENOUGH = 3  # landmarks that need no other starts
-EMBEDDED = 3  # maps whose samples are placed by the solver
-SENSE = {"preserve": 1, "reverse": -1, "any": 0}
+REFINED = 3  # maps whose samples are placed by the solver
+REFLECTED = {"preserve": (False,), "reverse": (True,), "any": (False, True)}
 
 
 @suggest_keywords
@@ -50,39 +52,45 @@ def match(  # noqa: PLR0913 - the signature is a promise
     method as it stands nothing is. `progress(stage, fraction)` is called as work goes on. Raises `MeshError`,
     `LandmarkError` (E300-E305), `SampleCountError` (E401), `SolverError` (E403).
     """
-    if orientation not in SENSE:
+    if orientation not in REFLECTED:
         raise ValueError(f"orientation must be 'preserve', 'reverse' or 'any', not {orientation!r}")
     source, target = Mesh.from_object(source), Mesh.from_object(target)
-    sense, loss = SENSE[orientation], LeastSquares() if loss is None else loss
+    loss = LeastSquares() if loss is None else loss
     known = None if landmarks is None else landmark_vertices(landmarks, source, target)
     report = progress or (lambda stage, fraction: None)
     started = time.perf_counter()
 
     report("measuring", 0.0)
-    pair = SurfacePair(measure(source), measure(target), sense, known)
-    most = len(pair.source.regular.usable)
+    measured = measure(source)
+    most = len(measured.regular.usable)
     count = min(SAMPLES, most) if n_samples is None else check_sample_count(n_samples, source)
     starts: list[Start] = list(initialization.ALL)
     if known is not None:
         starts = [from_landmarks(*known), *(starts if len(known[0]) < ENOUGH else ())]
+    placed: list[Embedded] = []
+    for reflected in REFLECTED[orientation]:
+        pair = SurfacePair(measured, measure(target, reflected=reflected), known, reflected)
+        given = None
+        views = list(zip(pair.source.views, pair.target.views, strict=True))
+        if distance is not None:
+            distances = distance(pair.source.mesh), distance(pair.target.mesh)
+            given = (view_of(distances[0], pair.source), view_of(distances[1], pair.target)), distances
+            views = [given[0]]
+        found: list[Proposal] = []
+        for proposal in proposals(pair, views, starts):
+            report("proposing", 0.2 + 0.4 * min(1.0, len(found) / (PROPOSED * len(views))))
+            found.append(proposal)
+        chosen = distinct(found, pair.outlines[0], REFINED)
+        for i, proposal in enumerate(chosen):
+            report("embedding", 0.6 + 0.4 * i / len(chosen))
+            placed.append(embed(pair, proposal, loss, count, given))
+    placed.sort(key=lambda e: e.evidence.loss)
     if distance is None:
-        given, found = None, proposals(pair, starts)
-    else:
-        given = distance(pair.source.mesh), distance(pair.target.mesh)
-        found = proposals_in(pair, (view_of(given[0], pair.source), view_of(given[1], pair.target)), starts)
-    proposed: list[Hypothesis] = []
-    for i, hypothesis in enumerate(found):
-        report("refining", 0.5 + 0.25 * min(i / 8, 1))
-        proposed.append(hypothesis)
-    chosen = distinct(proposed, EMBEDDED, sense)
-    chosen += [h for h in mirrored(proposed, sense) if h not in chosen]  # to show what else there is
-    placed = []
-    for i, hypothesis in enumerate(chosen):
-        report("embedding", 0.75 + 0.2 * i / len(chosen))
-        placed.append(embed(pair, hypothesis, loss, count, given))
-    placed.sort(key=lambda h: h.evidence.loss(sense))
+        placed[0] = finished(placed[0])
+    other = mirrored(placed[0])
+    placed += [] if other is None else [other]
 
     settings = {"n_samples": count, "loss": repr(loss), "orientation": orientation, "rng": rng}
     seconds = round(time.perf_counter() - started, 3)
     report("done", 1.0)
-    return answer(pair, placed, {"parameters": settings, "seconds": seconds})
+    return answer(placed, {"parameters": settings, "seconds": seconds})

@@ -24,6 +24,7 @@ ROUNDS: tuple[tuple[float, tuple[int, ...]], ...] = (
 )
 LADDER = (16, 20, 24, 28, 32, 40, 50, 60)
 CARRIERS = 1500  # source vertices that carry a map from one round to the next
+PER_FUNCTION = 15  # samples that each eigenfunction is fitted to, at the least
 FITTED = 500  # the first of them, to which functional maps are fitted
 GOALS = 2500  # target vertices that they may be sent to
 
@@ -71,10 +72,13 @@ class Refiner:
         return _images(ours.functions, view, matrix, view.usable), view
 
 
-def upsampled(source: View, target: View, images: Index) -> Index:
-    """A map (n,) to target vertices refined by spectral upsampling between two given views."""
-    samples = source.samples(FITTED)
-    steps = _available(LADDER, source, target)
+def upsampled(source: View, target: View, images: Index, sizes: Sequence[int] = LADDER) -> Index:
+    """A map (n,) to target vertices refined by spectral upsampling between two given views.
+
+    `sizes`: the numbers of eigenfunctions; `PER_FUNCTION` samples for each of the last.
+    """
+    steps = _available(sizes, source, target)
+    samples = source.samples(max(FITTED, PER_FUNCTION * steps[-1]))
     matrix, _ = spectral_upsampling(source.functions[samples], target.functions, images[samples], steps, target.usable)
     return _images(source.functions, target, matrix, target.usable)
 

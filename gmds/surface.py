@@ -140,8 +140,8 @@ class Surface:
         return np.tanh(curvature / typical) if typical > FLAT else np.zeros_like(curvature)
 
 
-def measure(mesh: Mesh) -> Surface:
-    """The largest part of `mesh`, ready for matching. Raises `TooFewVertices` (E113)."""
+def measure(mesh: Mesh, *, reflected: bool = False) -> Surface:
+    """The largest part of `mesh`, or of its mirror image, ready for matching. Raises `TooFewVertices` (E113)."""
     label = vertex_components(mesh)
     of_face = label[mesh.faces[:, 0]]
     area = areas(squared_lengths(mesh.vertices, mesh.faces))
@@ -154,8 +154,10 @@ def measure(mesh: Mesh) -> Surface:
             f"the largest part of {mesh!r} has {len(used)} vertices; matching needs {FEWEST_VERTICES}; refine the mesh"
         )
     shift = mesh.vertices[used].mean(axis=0)
-    unit = orient_faces(Mesh((mesh.vertices - shift) / np.sqrt(size.max()), mesh.faces[kept]))
-    return Surface(mesh, unit, kept)
+    place, faces = (mesh.vertices - shift) / np.sqrt(size.max()), mesh.faces[kept]
+    if reflected:
+        place, faces = place * (-1.0, 1.0, 1.0), faces[:, [0, 2, 1]]  # what faced outward still does
+    return Surface(mesh, orient_faces(Mesh(place, faces)), kept)
 
 
 def view_of(distance: object, surface: Surface) -> View:

@@ -91,9 +91,13 @@ class SampledPair:
 
     def dense(self, images: Index) -> Index:
         """The sample map carried to all vertices: target vertices (n,)."""
+        return self.carried(images, np.arange(self.source.mesh.n_vertices), self.target.usable)
+
+    def carried(self, images: Index, vertices: Index, goals: Index) -> Index:
+        """The sample map carried to some source vertices (p,): for each the target vertex it goes to among `goals`."""
         k = min(COARSE[-1], self.source_rows.shape[1], self.target_rows.shape[1])
-        matrix, usable = self.matrix(images, k), self.target.usable
-        return usable[nearest_rows(self.source.functions[:, :k], self.target.functions[usable, :k] @ matrix.T)]
+        rows = self.target.functions[goals, :k] @ self.matrix(images, k).T
+        return goals[nearest_rows(self.source.functions[vertices, :k], rows)]
 
     @functools.cached_property
     def source_distances(self) -> Array:

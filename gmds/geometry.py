@@ -1,0 +1,136 @@
+"""A surface as registration sees it: vertices, normals, and what it costs to bend it."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from geodesics import Mesh, SurfacePoints
+from geodesics.closest import closest_on_triangles
+from geodesics.curvature import one_ring_areas, vertex_normals
+from geodesics.topology import boundary_vertices
+from gmds._kernels.closest import closest_on_faces
+from gmds.elasticity import Elasticity
+from gmds.surface import Surface
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+OUTLINE_FACES = 1600
+NORMAL_WEIGHT = 0.1  # root areas that a right angle between normals is worth, over root 2
+LOOKS = 4  # from vertex to vertex for the closest point
+
+
+@dataclass(frozen=True, eq=False)
+class Geometry:
+    """A mesh of unit area, and for each vertex the vertex `origin` (n,) it stands for on the surface it outlines.
+
+    `curvature` (n,): squashed mean curvature, which tells the chest from the back.
+    """
+
+    mesh: Mesh
+    origin: Index
+    curvature: Array
+
+    @classmethod
+    def of(cls, surface: Surface) -> Geometry:
+        """The whole surface."""
+        return cls(surface.mesh, np.arange(surface.mesh.n_vertices), surface.squashed_curvature)
+
+    @classmethod
+    def outline(cls, surface: Surface, n_faces: int = OUTLINE_FACES) -> Geometry:
+        """The surface with about `n_faces` faces, by collapsing edges; the whole where that can not be done."""
+        import igl
+
+        used, faces = np.unique(surface.mesh.faces, return_inverse=True)
+        faces = faces.reshape(-1, 3).astype(np.int64)
+        if len(faces) <= n_faces * 1.25 or not igl.is_edge_manifold(faces):
+            return cls.of(surface)
+        v, f, *_ = igl.decimate(np.ascontiguousarray(surface.mesh.vertices[used]), faces, n_faces)
+        if len(f) == 0 or len(f) > 2 * n_faces:
+            return cls.of(surface)
+        origin = used[cKDTree(surface.mesh.vertices[used]).query(v)[1]]
+        return cls(Mesh(v, np.asarray(f, dtype=np.int64)), origin, surface.squashed_curvature[origin])
+
+    @functools.cached_property
+    def usable(self) -> Index:
+        """Vertices with area."""
+        return np.flatnonzero(self.areas > 0)
+
+    @functools.cached_property
+    def boundary(self) -> NDArray[np.bool_]:
+        """Whether a vertex (n,) is on an edge of a single face."""
+        return boundary_vertices(self.mesh)
+
+    def on_boundary(self, points: SurfacePoints) -> NDArray[np.bool_]:
+        """Whether points (p,) of the surface lie on its boundary."""
+        inside = np.where(self.boundary[self.mesh.faces[points.face]], 0.0, points.barycentric)
+        return np.asarray(inside.sum(axis=1) <= 0, dtype=np.bool_)
+
+    @functools.cached_property
+    def areas(self) -> Array:
+        """Area (n,) around each vertex; the sum is 1."""
+        areas = one_ring_areas(self.mesh)
+        return np.asarray(areas / areas.sum(), dtype=np.float64)
+
+    @functools.cached_property
+    def elasticity(self) -> Elasticity:
+        """What it costs to deform it."""
+        return Elasticity(self.mesh, self.areas)
+
+    @functools.cached_property
+    def normals(self) -> Array:
+        """Unit normals (n, 3)."""
+        return vertex_normals(self.mesh)
+
+    @functools.cached_property
+    def features(self) -> Array:
+        """Positions and weighted normals (n, 6)."""
+        return np.hstack([self.mesh.vertices, NORMAL_WEIGHT * self.normals])
+
+    def moved_features(self, y: Array) -> Array:
+        """The features (n, 6) after moving the vertices to y (n, 3); normals are means weighted by area."""
+        a, b, c = (y[corner] for corner in self.mesh.faces.T)
+        normals = self._around @ np.cross(b - a, c - a)
+        size = np.linalg.norm(normals, axis=1, keepdims=True)
+        return np.hstack([y, NORMAL_WEIGHT * normals / np.maximum(size, np.finfo(float).tiny)])
+
+    @functools.cached_property
+    def _around(self) -> sp.csr_matrix:
+        """Sums over the faces around each vertex, (n, m)."""
+        n, m = self.mesh.n_vertices, self.mesh.n_faces
+        rows = np.repeat(np.arange(m), 3)
+        return sp.csr_matrix((np.ones(3 * m), (self.mesh.faces.ravel(), rows)), shape=(n, m))
+
+    @functools.cached_property
+    def tree(self) -> cKDTree:
+        """Search tree of the features of the usable vertices."""
+        return cKDTree(self.features[self.usable])
+
+    @functools.cached_property
+    def places(self) -> cKDTree:
+        """Search tree of the vertices in space."""
+        return cKDTree(self.mesh.vertices)
+
+    @functools.cached_property
+    def _rings(self) -> tuple[Index, Index]:
+        """Faces of each vertex, one after the other, and where those of a vertex start."""
+        corners = self.mesh.faces.ravel()
+        counts = np.bincount(corners, minlength=self.mesh.n_vertices)
+        return np.argsort(corners, kind="stable") // 3, np.concatenate([[0], np.cumsum(counts)])
+
+    def closest(self, queries: Array, rows: Array, guess: Index) -> SurfacePoints:
+        """Points of the surface, embedded by `rows` (n, k), closest to `queries` (p, k), near the vertices `guess`."""
+        q, r = np.ascontiguousarray(queries), np.ascontiguousarray(rows)
+        face, weight, _ = closest_on_faces(q, r, self.mesh.faces, *self._rings, guess, LOOKS)
+        return SurfacePoints(self.mesh, face, weight)
+
+    def carried(self, y: Array, points: Array) -> Array:
+        """Where points (p, 3) on the surface go when its vertices go to y (n, 3)."""
+        face, weight, _ = closest_on_triangles(points, self.mesh.vertices, self.mesh.faces)
+        return np.asarray(np.einsum("pk,pkj->pj", weight, y[self.mesh.faces[face]]), dtype=np.float64)

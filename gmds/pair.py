@@ -1,0 +1,62 @@
+"""What is to be matched: two measured surfaces, and what is known of them before any map."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics import SurfacePoints
+from gmds.geometry import Geometry
+from gmds.problem import joined
+from gmds.refinement import Refiner
+from gmds.surface import Surface
+from gmds.symmetries import mirror
+
+Index = NDArray[np.int64]
+Known = tuple[Index, Index]
+
+WEIGHT = 10  # samples that a landmark is worth
+
+
+@dataclass(frozen=True, eq=False)
+class SurfacePair:
+    """What is to be matched: two surfaces, and `known` vertices of both that correspond, or None.
+
+    `reflected`: whether the target is the mirror image of what was given, for maps that reverse orientation.
+    """
+
+    source: Surface
+    target: Surface
+    known: Known | None = None
+    reflected: bool = False
+
+    @functools.cached_property
+    def outlines(self) -> tuple[Geometry, Geometry]:
+        """Both surfaces with few faces."""
+        return Geometry.outline(self.source), Geometry.outline(self.target)
+
+    @functools.cached_property
+    def geometries(self) -> tuple[Geometry, Geometry]:
+        """Both surfaces with all their faces."""
+        return Geometry.of(self.source), Geometry.of(self.target)
+
+    @functools.cached_property
+    def refiner(self) -> Refiner:
+        """Refines maps in the metric in which they keep area."""
+        return Refiner(self.source, self.target)
+
+    @functools.cached_property
+    def reflections(self) -> tuple[Index | None, Index | None]:
+        """A self-map that reverses orientation of the source, or else of the target, if there is one."""
+        ours = mirror(self.source, self.source.regular)
+        return ours, mirror(self.target, self.target.regular) if ours is None else None
+
+    def with_landmarks(self, samples: Index, points: SurfacePoints) -> tuple[Index, SurfacePoints]:
+        """Placed samples with the landmarks added, often enough that the extension heeds them."""
+        if self.known is None:
+            return samples, points
+        ours, theirs = (np.repeat(side, WEIGHT) for side in self.known)
+        return np.concatenate([samples, ours]), joined(points, SurfacePoints.at_vertices(points.mesh, theirs))

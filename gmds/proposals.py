@@ -1,0 +1,83 @@
+"""Many rough maps of two surfaces, weighed by what it costs to deform the one into the other as they say."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gmds.geometry import Geometry
+from gmds.hypotheses import hypotheses
+from gmds.pair import SurfacePair
+from gmds.registration import BEGIN, COARSE, Registered, register
+from gmds.surface import View
+from gmds.upsampling import SampledPair
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+Start = Callable[[SampledPair], list[Index]]
+
+PROPOSED = 16  # maps that each metric proposes
+LEAST_KEPT = 8  # of them all, at the least, are registered to the end
+APART = 0.05  # root mean square gap, in root areas, below which two maps are one
+
+
+@dataclass(frozen=True, eq=False)
+class Proposal:
+    """A map of the outline of the source, registered to the outline of the target."""
+
+    registered: Registered
+
+    @property
+    def loss(self) -> float:
+        """Minus the log-likelihood of the map up to a constant."""
+        return self.registered.residuals.loss
+
+
+def proposals(pair: SurfacePair, views: Sequence[tuple[View, View]], starts: Sequence[Start]) -> Iterator[Proposal]:
+    """Maps from starts in each pair of views, and composed with a reflection, each registered on the outlines.
+
+    A reflection of either surface makes of a mirrored map the right one, and of a right one the mirrored. Which is
+    which shows when the outline of the source is deformed: a surface can not be turned inside out for little. The third
+    that needs the least deformation to begin with is registered to the end.
+    """
+    source, target = pair.outlines
+    places = [target.mesh.vertices[images] for images in rough_maps(pair, views, starts)]
+    first = [register(source, target, place, BEGIN, growing=False).residuals.loss for place in places]
+    for i in np.argsort(first, kind="stable")[: max(LEAST_KEPT, len(places) // 3)]:
+        yield Proposal(register(source, target, places[i], (*BEGIN, *COARSE), growing=False))
+
+
+def rough_maps(pair: SurfacePair, views: Sequence[tuple[View, View]], starts: Sequence[Start]) -> list[Index]:
+    """Maps (p,) from the vertices of the source's outline to those of the target's, before and after a reflection."""
+    (here, there), (ours, theirs) = pair.outlines, pair.reflections
+    spot = np.zeros(pair.target.mesh.n_vertices, dtype=np.int64)
+    spot[there.origin] = np.arange(len(there.origin))
+    straight, turned = [], []
+    for both in views:
+        sampled = SampledPair.of(*both)
+        for images in hypotheses(sampled, starts, PROPOSED):
+            straight.append(spot[sampled.carried(images, here.origin, there.origin)])
+            if ours is not None:
+                turned.append(spot[sampled.carried(images, ours[here.origin], there.origin)])
+    if theirs is not None:
+        back = there.places.query(pair.target.mesh.vertices[theirs[there.origin]])[1]
+        turned = [back[images] for images in straight]
+    return straight + turned
+
+
+def distinct(found: Sequence[Proposal], source: Geometry, count: int) -> list[Proposal]:
+    """The `count` best, best first, leaving out those that nearly repeat a better one."""
+    kept: list[Proposal] = []
+    for proposal in sorted(found, key=lambda p: p.loss):
+        if len(kept) < count and all(_gap(proposal, other, source.areas) > APART for other in kept):
+            kept.append(proposal)
+    return kept
+
+
+def _gap(one: Proposal, other: Proposal, areas: Array) -> float:
+    """Root mean square distance between the images of two maps."""
+    squares = ((one.registered.y - other.registered.y) ** 2).sum(axis=1)
+    return float(np.sqrt(areas @ squares))

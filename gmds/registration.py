@@ -1,0 +1,176 @@
+"""Non-rigid registration: the source deformed in space until it lies on the target, bending where it must."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from geodesics import SurfacePoints
+from gmds.geometry import Geometry
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+# stiffness, an area: the square of the distance over which misfits are averaged; and the number of steps
+BEGIN: Sequence[tuple[float, int]] = ((3e-2, 6),)
+COARSE: Sequence[tuple[float, int]] = ((1e-2, 4), (3e-3, 4))
+FINE: Sequence[tuple[float, int]] = ((1e-3, 4), (5e-4, 4))
+BACK: Sequence[tuple[float, int]] = ((3e-3, 4), (3e-3, 3), (1e-3, 3))
+AGAIN: Sequence[tuple[float, int]] = ((1e-3, 3), (1e-3, 3), (5e-4, 3))
+LEAST = 1e-6  # residuals below this are rounding
+GIVEN_TIME = 1e-3  # heat time that smooths the given map before anything is fitted to it
+
+
+@dataclass(frozen=True)
+class Residuals:
+    """What is left of a source deformed onto a target.
+
+    `energy`: elastic energy; `misfit`, `misfit_back`: root mean square distance to the target, and from it to the
+    source, in root areas; `curvature`, `curvature_back`: correlation of squashed mean curvature, both ways.
+    """
+
+    energy: float
+    misfit: float
+    misfit_back: float
+    curvature: float
+    curvature_back: float
+
+    @property
+    def loss(self) -> float:
+        """Minus the log-likelihood up to a constant, with the spread of each residual at its best value.
+
+        A Gaussian residual of spread s contributes log s: the root of the elastic energy; the distance from the target
+        back, which is large where parts of it are left out; the unexplained part sqrt(1 - r^2) of the curvature, both
+        ways, which tells the chest from the back.
+        """
+        unexplained = [np.sqrt(1 - np.clip(r, 0.0, 1.0) ** 2) for r in (self.curvature, self.curvature_back)]
+        spreads = (np.sqrt(self.energy), self.misfit_back, *unexplained)
+        return float(sum(np.log(max(spread, LEAST)) for spread in spreads))
+
+
+@dataclass(frozen=True, eq=False)
+class Registered:
+    """A source on the target: its vertices are at y (n, 3), and closest to the `points` (n,) of the target.
+
+    `strain` (n,): elastic energy around each vertex, per area.
+    """
+
+    y: Array
+    points: SurfacePoints
+    strain: Array
+    residuals: Residuals
+
+
+def register(
+    source: Geometry,
+    target: Geometry,
+    images: Array,
+    stages: Sequence[tuple[float, int]] = (*BEGIN, *COARSE, *FINE),
+    *,
+    growing: bool,
+    partial: bool = False,
+) -> Registered:
+    """The source deformed so that its vertices, meant to go to `images` (n, 3), lie on the target.
+
+    In turn, every vertex of either surface looks for the closest point of the other, in position and normal (as in
+    ICP: Besl and McKay 1992; both ways, so that nothing of the target is left out), and the source takes the shape of
+    least elastic energy that is held there by springs. The springs grow ever stronger against the elasticity; in the
+    first stage they lead to the images given. `growing`: whether the elasticity lets parts change size; `partial`:
+    whether what is closest to a boundary is left alone, as what it belongs to may be missing.
+    """
+    elasticity, areas = source.elasticity, source.areas
+    weights, goals = areas, images
+    y = elasticity.smoother(GIVEN_TIME)(areas[:, None] * images)
+    for number, (stiff, steps) in enumerate(stages):
+        solve = elasticity.smoother(stiff) if number == 0 else None
+        for _ in range(steps):
+            if solve is None or number > 0:
+                weights, goals = _Pairing.of(source, target, y, partial).springs(source, target)
+                solve = elasticity.solver(stiff, weights)
+            pull = elasticity.force(elasticity.turns(y, growing))
+            y = solve(stiff * pull + weights[:, None] * goals)
+    return registered(source, target, y, growing=growing, partial=partial)
+
+
+@dataclass(frozen=True, eq=False)
+class _Pairing:
+    """Closest points of a deformed source and a target, both ways: of every source vertex, of every usable target one.
+
+    `weight` (n,), `weight_back` (q,): areas, or 0 where the closest point is on a boundary: what it should be paired
+    with may be missing.
+    """
+
+    points: SurfacePoints
+    back: Index
+    weight: Array
+    weight_back: Array
+
+    @classmethod
+    def of(cls, source: Geometry, target: Geometry, y: Array, partial: bool) -> _Pairing:
+        features = source.moved_features(y)
+        near = target.usable[target.tree.query(features)[1]]
+        points = target.closest(features, target.features, near)
+        back = source.usable[cKDTree(features[source.usable]).query(target.features[target.usable])[1]]
+        weight, weight_back = source.areas, target.areas[target.usable]
+        if partial:
+            weight = np.where(target.on_boundary(points), 0.0, weight)
+            weight_back = np.where(source.boundary[back], 0.0, weight_back)
+        return cls(points, back, weight, weight_back)
+
+    def springs(self, source: Geometry, target: Geometry) -> tuple[Array, Array]:
+        """Weights (n,) and ends (n, 3) of the springs that pull on vertices: to the target, and those from it."""
+        place, n = target.mesh.vertices[target.usable], source.mesh.n_vertices
+        weights = self.weight + np.bincount(self.back, self.weight_back, minlength=n)
+        total = self.weight[:, None] * self.points.positions
+        for k in range(3):
+            total[:, k] += np.bincount(self.back, self.weight_back * place[:, k], minlength=n)
+        return weights, total / np.maximum(weights, np.finfo(float).tiny)[:, None]
+
+
+def registered(source: Geometry, target: Geometry, y: Array, *, growing: bool, partial: bool = False) -> Registered:
+    """The source with its vertices at y (n, 3), as it is."""
+    elasticity, pairing = source.elasticity, _Pairing.of(source, target, y, partial)
+    points, back = pairing.points, pairing.back
+    energy = elasticity.energy(y, elasticity.turns(y, growing))
+    gap = np.linalg.norm(points.positions - y, axis=1)
+    gap_back = np.linalg.norm(target.mesh.vertices[target.usable] - y[back], axis=1)
+    there = target.curvature[target.usable]
+    residuals = Residuals(
+        energy=float(energy.sum()),
+        misfit=_root_mean_square(gap, pairing.weight),
+        misfit_back=_root_mean_square(gap_back, pairing.weight_back),
+        curvature=correlation(source.curvature, points.interpolate(target.curvature), pairing.weight),
+        curvature_back=correlation(there, source.curvature[back], pairing.weight_back),
+    )
+    return Registered(y, points, energy / np.maximum(source.areas, np.finfo(float).tiny), residuals)
+
+
+def both_ways(source: Geometry, target: Geometry, found: Registered) -> Registered:
+    """A registration improved by the opposite one: the target deformed onto the source starts where this one ended.
+
+    The source is registered again from the middle between where it lay and where the deformed target says it belongs:
+    what slides one way in the one slides the other way in the other.
+    """
+    features = source.moved_features(found.y)
+    begun = source.mesh.vertices[source.usable[cKDTree(features[source.usable]).query(target.features)[1]]]
+    back = register(target, source, begun, BACK, growing=True, partial=True)
+    rows = target.moved_features(back.y)
+    near = target.usable[cKDTree(rows[target.usable]).query(source.features)[1]]
+    there = target.closest(source.features, rows, near).positions
+    return register(source, target, (found.y + there) / 2, AGAIN, growing=True, partial=True)
+
+
+def _root_mean_square(values: Array, weights: Array) -> float:
+    return float(np.sqrt(weights @ values**2 / max(weights.sum(), np.finfo(float).tiny)))
+
+
+def correlation(x: Array, y: Array, weights: Array) -> float:
+    """Weighted correlation; 0 where one of them is constant, 1 where both are."""
+    w = weights / max(weights.sum(), np.finfo(float).tiny)
+    x, y = x - w @ x, y - w @ y
+    square, other = w @ x**2, w @ y**2
+    return float(w @ (x * y) / np.sqrt(square * other)) if square * other > 0 else float(square == other)
