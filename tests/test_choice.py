@@ -10,8 +10,8 @@ import shapes
 from matched import bumpy, mirror_vertices, surface
 from numpy.typing import NDArray
 
-from geodesics import SurfacePoints
-from gmds.choice import HIT, Evidence, evidence
+from geodesics import Mesh, SurfacePoints
+from gmds.choice import HIT, Evidence, evidence, outline_residuals
 from gmds.pair import Known, SurfacePair
 from gmds.registration import Residuals, registered
 from gmds.surface import Surface, measure
@@ -28,7 +28,7 @@ def weighed(mine: Surface, images: Index, theirs: Surface | None = None, known: 
     pair = SurfacePair(mine, mine if theirs is None else theirs, known, theirs is not None)
     points = SurfacePoints.at_vertices(pair.target.mesh, images)
     whole = registered(*pair.geometries, points.positions, growing=True, partial=True).residuals
-    return evidence(pair, (mine.regular, pair.target.regular), points, whole)
+    return evidence(pair, (mine.regular, pair.target.regular), points, outline_residuals(pair, points), whole)
 
 
 @pytest.mark.parametrize("part", ["outline", "whole"])
@@ -38,6 +38,17 @@ def test_a_worse_part_is_a_larger_loss_and_each_adds_up(name: str, part: str) ->
     found = replace(FAIR, **{part: worse}).loss - FAIR.loss
     assert found > 0.1
     assert found == pytest.approx(worse.loss - LEFT.loss)
+
+
+def test_where_there_is_a_boundary_the_outline_decides() -> None:
+    worse = replace(LEFT, energy=0.6)
+    opened = replace(FAIR, closed=False)
+    assert replace(opened, whole=worse).loss == opened.loss
+    assert replace(opened, outline=worse).loss > opened.loss + 0.5
+    assert replace(opened, outline=worse, closed=True).loss == replace(FAIR, outline=worse).loss
+    mine, half = measure(bumpy()), measure(Mesh(bumpy().vertices, bumpy().faces[:200]))
+    assert weighed(mine, np.arange(bumpy().n_vertices)).closed
+    assert not weighed(half, np.arange(bumpy().n_vertices)).closed
 
 
 def test_a_landmark_that_is_missed_speaks_against_a_map() -> None:
