@@ -21,11 +21,18 @@ from runs import Job, Rows, arguments, chosen_pairs, code_version, read_rows, ru
 from tables import number, table
 
 import geodesics
-import gmds
+import gmds.candidates
+import gmds.initialization
+import gmds.matching
+import gmds.pair
+import gmds.surface
 from gmds.benchmarking import Matcher
-from gmds.candidates import TIME
+from gmds.candidates import TIME, Embedded
+from gmds.choice import Evidence
 from gmds.cli.choices import chosen_distance
 from gmds.correspondence import Correspondence
+from gmds.pair import SurfacePair
+from gmds.registration import Registered, registered
 from gmds.surface import EIGENFUNCTIONS, SMOOTHING
 
 EVERY = {"scaled": 1, "faust_5k": 11, "tosca_5k": 11, "tosca_cross_5k": 4}  # steps that meet pairs of both halves
@@ -49,8 +56,8 @@ def distance(mesh: geodesics.Mesh, kind: str, exponent: float) -> geodesics.Dist
     return SPECTRAL[kind](geodesics.eigenpairs(metric, min(EIGENFUNCTIONS, mesh.n_vertices - 1)))
 
 
-def changed(changes: Mapping[ModuleType, Mapping[str, Any]]) -> Matcher:
-    """`match` while attributes of modules are others; raises AttributeError now where one does not exist."""
+def changed(changes: Mapping[ModuleType | type, Mapping[str, Any]]) -> Matcher:
+    """`match` while attributes of modules or classes are others; raises AttributeError now where one does not exist."""
     for module, values in changes.items():
         for name in values:
             getattr(module, name)
@@ -62,6 +69,16 @@ def changed(changes: Mapping[ModuleType, Mapping[str, Any]]) -> Matcher:
             return gmds.match(source, target)
 
     return matcher
+
+
+def left_as_it_is(pair: SurfacePair, points: geodesics.SurfacePoints) -> Registered:
+    """In place of the registration of a map."""
+    return registered(*pair.geometries, points.positions, growing=True, partial=True)
+
+
+def same(best: Embedded) -> Embedded:
+    """In place of finishing a map."""
+    return best
 
 
 ARGUMENTS: dict[str, Matcher] = {
@@ -76,7 +93,18 @@ ARGUMENTS: dict[str, Matcher] = {
         for name, exponent in EXPONENTS.items()
     },
 }
-INSIDE: dict[str, Matcher] = {}  # such as "no solve": changed({gmds.candidates: {"ITERATIONS": 0}})
+INSIDE: dict[str, Matcher] = {
+    "no reflections": changed({gmds.pair: {"mirror": lambda surface, view: None}}),
+    "starts from eigenfunction signs only": changed({gmds.initialization: {"ALL": gmds.initialization.ALL[:1]}}),
+    "starts from extremities only": changed({gmds.initialization: {"ALL": gmds.initialization.ALL[1:]}}),
+    "starts in the metric of space only": changed({gmds.surface: {"EXPONENTS": ()}}),
+    "choice by stress": changed({Evidence: {"loss": property(lambda found: found.stress)}}),
+    "choice by the outline alone": changed({Evidence: {"loss": property(lambda found: found.outline.loss)}}),
+    "no embedding by solve": changed({gmds.candidates: {"ITERATIONS": 0}}),
+    "no registration": changed({gmds.candidates: {"registered": left_as_it_is}, gmds.matching: {"finished": same}}),
+    "registered once": changed({gmds.matching: {"finished": same}}),
+    "no way back": changed({gmds.candidates: {"RETURNS": 0}}),
+}
 VARIANTS: dict[str, Matcher] = {BASE: gmds.match, **ARGUMENTS, **INSIDE}
 
 
