@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -21,12 +21,10 @@ from geodesics import (
     embedded,
     scale_invariant,
 )
-from gmds import Correspondence, Huber, LeastSquares, Minimax, candidates
+from gmds import Correspondence, Huber, LeastSquares, Minimax
 from gmds.correspondence import MatchStatus
 from gmds.errors import LandmarkError, SampleCountError
-from gmds.geometry import Geometry
 from gmds.losses import Loss, Power
-from gmds.registration import Registered
 
 LOBED = shapes.ellipsoid(2, (1.0, 1.4, 2.0))
 
@@ -93,23 +91,6 @@ def test_every_distance_matches_a_turned_copy(name: str) -> None:
     target = shapes.moved(bumpy(), 0.3)
     answer = gmds.match(bumpy(), target, distance=DISTANCES[name], n_samples=20)
     assert off(answer, target.vertices) < 1e-6
-
-
-def test_with_a_distance_the_embedding_is_the_answer_as_it_stands(monkeypatch: pytest.MonkeyPatch) -> None:
-    target = shapes.moved(animal(n_vertices=300), 0.3)
-    registered: list[int] = []
-
-    def register(source: Geometry, *others: Any, **options: Any) -> Registered:
-        registered.append(source.mesh.n_vertices)
-        return plain(source, *others, **options)
-
-    plain = candidates.register
-    monkeypatch.setattr(candidates, "register", register)
-    by_embedding = gmds.match(animal(n_vertices=300), target, distance=DISTANCES["biharmonic"], n_samples=30)
-    assert not registered
-    assert off(by_embedding, target.vertices) < 0.05
-    gmds.match(animal(n_vertices=300), animal("walk", 1, 300), n_samples=30)
-    assert registered
 
 
 def test_where_a_part_grew_the_default_does_better_than_the_metric_of_space() -> None:
