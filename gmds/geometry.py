@@ -12,7 +12,8 @@ from scipy.spatial import cKDTree
 
 from geodesics import Mesh, SurfacePoints
 from geodesics.closest import closest_on_triangles
-from geodesics.curvature import one_ring_areas, vertex_normals
+from geodesics.curvature import one_ring_areas
+from geodesics.delaunay import proper_faces
 from geodesics.topology import boundary_vertices
 from gmds._kernels.closest import closest_on_faces
 from gmds.elasticity import Elasticity
@@ -47,9 +48,10 @@ class Geometry:
         """The surface with about `n_faces` faces, by collapsing edges; the whole where that can not be done."""
         import igl
 
-        used, faces = np.unique(surface.mesh.faces, return_inverse=True)
+        sound = surface.mesh.faces[proper_faces(surface.mesh.faces)]
+        used, faces = np.unique(sound, return_inverse=True)
         faces = faces.reshape(-1, 3).astype(np.int64)
-        if len(faces) <= n_faces * 1.25 or not igl.is_edge_manifold(faces):
+        if len(faces) <= n_faces * 1.25 or not _can_be_collapsed(faces):
             return cls.of(surface)
         v, f, *_ = igl.decimate(np.ascontiguousarray(surface.mesh.vertices[used]), faces, n_faces)
         if len(f) == 0 or len(f) > 2 * n_faces:
@@ -85,16 +87,16 @@ class Geometry:
 
     @functools.cached_property
     def normals(self) -> Array:
-        """Unit normals (n, 3)."""
-        return vertex_normals(self.mesh)
+        """Unit normals (n, 3), means over the faces around each vertex weighted by area."""
+        return self.features[:, 3:] / NORMAL_WEIGHT
 
     @functools.cached_property
     def features(self) -> Array:
         """Positions and weighted normals (n, 6)."""
-        return np.hstack([self.mesh.vertices, NORMAL_WEIGHT * self.normals])
+        return self.moved_features(self.mesh.vertices)
 
     def moved_features(self, y: Array) -> Array:
-        """The features (n, 6) after moving the vertices to y (n, 3); normals are means weighted by area."""
+        """The features (n, 6) after moving the vertices to y (n, 3)."""
         a, b, c = (y[corner] for corner in self.mesh.faces.T)
         normals = self._around @ np.cross(b - a, c - a)
         size = np.linalg.norm(normals, axis=1, keepdims=True)
@@ -134,3 +136,12 @@ class Geometry:
         """Where points (p, 3) on the surface go when its vertices go to y (n, 3)."""
         face, weight, _ = closest_on_triangles(points, self.mesh.vertices, self.mesh.faces)
         return np.asarray(np.einsum("pk,pkj->pj", weight, y[self.mesh.faces[face]]), dtype=np.float64)
+
+
+def _can_be_collapsed(faces: Index) -> bool:
+    """Whether faces (m, 3) are a manifold with two sides: on others libigl takes all memory or ends the process."""
+    import igl
+
+    directed = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    one_way = len(np.unique(directed, axis=0)) == len(directed)
+    return bool(one_way and igl.is_edge_manifold(faces) and np.all(igl.is_vertex_manifold(faces)))
