@@ -103,6 +103,7 @@ INSIDE: dict[str, Matcher] = {
     "no embedding by solve": changed({gmds.candidates: {"ITERATIONS": 0}}),
     "no registration": changed({gmds.candidates: {"registered": left_as_it_is}, gmds.matching: {"finished": same}}),
     "registered once": changed({gmds.matching: {"finished": same}}),
+    "no eigenfunctions in the registration": changed({gmds.candidates: {"SPECTRAL_GAIN": 1.0}}),
     "no way back": changed({gmds.candidates: {"RETURNS": 0}}),
 }
 VARIANTS: dict[str, Matcher] = {BASE: gmds.match, **ARGUMENTS, **INSIDE}

@@ -21,6 +21,7 @@ Array = NDArray[np.float64]
 
 POOR = 0.2  # relative stress above which distances count as badly kept
 BENT = 0.2  # correlation of curvature below which they do as well
+TORN = 1.0  # elastic energy above which they do as well: lengths are off by about half
 CLOSE = 0.7  # difference of log-likelihood below which another map may be the right one
 ALONE = 99.0  # the difference told where there is no other map
 DIFFERENT = 0.1  # mean distance between the images of two maps, over root area, that makes them two answers
@@ -96,8 +97,9 @@ def _distortion(embedded: Embedded) -> Array:
 
 
 def _status(best: Embedded, margin: float) -> MatchStatus:
-    """POOR where distances or curvature are badly kept, AMBIGUOUS where a quite different map is nearly as likely."""
-    if best.evidence.stress > POOR or best.evidence.whole.curvature < BENT:
+    """POOR where distances, curvature or lengths are badly kept, AMBIGUOUS where another map is nearly as likely."""
+    whole = best.evidence.whole
+    if best.evidence.stress > POOR or whole.curvature < BENT or whole.energy > TORN:
         return MatchStatus.POOR
     return MatchStatus.AMBIGUOUS if margin < CLOSE else MatchStatus.GOOD
 

@@ -15,7 +15,7 @@ from gmds.pair import SurfacePair
 from gmds.problem import Problem
 from gmds.proposals import Proposal
 from gmds.refinement import ROUNDS, upsampled
-from gmds.registration import COARSE, FINE, Registered, both_ways, register
+from gmds.registration import COARSE, FINE, SETTLE, Registered, both_ways, register, settled
 from gmds.registration import registered as as_it_is
 from gmds.solver import Solution, solve
 from gmds.surface import View
@@ -30,8 +30,9 @@ ITERATIONS = 20
 REST = tuple(range(1, len(ROUNDS)))  # rounds of alignment of a map that is good already
 FINE_LADDER = (40, 50, 60, 70, 80, 90, 100)  # numbers of eigenfunctions for such a map
 REPEATS = 2  # more refinements, if each pays
-RETURNS = 4  # registrations there and back
-GAIN = 0.005  # share of the energy by which each must lower it
+RETURNS = 3  # registrations there and back
+GAIN = 0.005  # share of the energy by which each must lower it, where parts grew
+SPECTRAL_GAIN = 0.08  # and by which eigenfunctions must: more where nothing grew, less across species
 CONGRUENT = 1e-9  # elastic energy below which a map is a congruence up to rounding
 
 
@@ -78,13 +79,15 @@ def finished(best: Embedded) -> Embedded:
     """The map refined further, for as long as the elastic energy of the deformation gets less.
 
     It goes through spectral upsampling in the metric of space, or in the one in which it keeps area, and is registered
-    again. Where nothing grew the first is the better: it does not follow the errors of the map. Then the target is
-    registered to the source as well, and what both say is brought together.
+    again. Where nothing grew the first is the better: it does not follow the errors of the map. Then eigenfunctions
+    take part in the search for closest points, if that pays; the target is registered to the source as
+    well, and what both say is brought together.
     """
     pair, now = best.pair, best.deformation
     if now.residuals.energy < CONGRUENT:
         return best
     regular = pair.source.regular, pair.target.regular
+    detail = pair.source.detail, pair.target.detail
 
     def in_space(points: SurfacePoints) -> Registered:
         images = upsampled(*regular, points.nearest_vertices(), FINE_LADDER)
@@ -102,9 +105,12 @@ def finished(best: Embedded) -> Embedded:
         if trial.residuals.energy >= now.residuals.energy:
             break
         now = trial
+    trial = settled(*pair.geometries, now.y, SETTLE, growing=True, partial=True, views=detail)
+    isometric = trial.residuals.energy < (1 - SPECTRAL_GAIN) * now.residuals.energy
+    now, views = (trial, detail) if isometric else (now, None)
     for _ in range(RETURNS):
-        trial = both_ways(*pair.geometries, now)
-        if trial.residuals.energy >= (1 - GAIN) * now.residuals.energy:
+        trial = both_ways(*pair.geometries, now, views)
+        if not isometric and trial.residuals.energy >= (1 - GAIN) * now.residuals.energy:
             break
         now = trial
     weighed = evidence(pair, best.views, now.points, best.evidence.outline, now.residuals)

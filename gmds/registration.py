@@ -11,6 +11,8 @@ from scipy.spatial import cKDTree
 
 from geodesics import SurfacePoints
 from gmds.geometry import Geometry
+from gmds.pairing import Pairing
+from gmds.surface import View
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -19,6 +21,7 @@ Index = NDArray[np.int64]
 BEGIN: Sequence[tuple[float, int]] = ((3e-2, 6),)
 COARSE: Sequence[tuple[float, int]] = ((1e-2, 4), (3e-3, 4))
 FINE: Sequence[tuple[float, int]] = ((1e-3, 4), (5e-4, 4))
+SETTLE: Sequence[tuple[float, int]] = ((1e-3, 5), (5e-4, 4))
 BACK: Sequence[tuple[float, int]] = ((3e-3, 4), (3e-3, 3), (1e-3, 3))
 AGAIN: Sequence[tuple[float, int]] = ((1e-3, 3), (1e-3, 3), (5e-4, 3))
 LEAST = 1e-6  # residuals below this are rounding
@@ -73,67 +76,51 @@ def register(
     *,
     growing: bool,
     partial: bool = False,
+    views: tuple[View, View] | None = None,
 ) -> Registered:
     """The source deformed so that its vertices, meant to go to `images` (n, 3), lie on the target.
 
-    In turn, every vertex of either surface looks for the closest point of the other, in position and normal (as in
-    ICP: Besl and McKay 1992; both ways, so that nothing of the target is left out), and the source takes the shape of
-    least elastic energy that is held there by springs. The springs grow ever stronger against the elasticity; in the
-    first stage they lead to the images given. `growing`: whether the elasticity lets parts change size; `partial`:
-    whether what is closest to a boundary is left alone, as what it belongs to may be missing.
+    In the first stage springs lead to the images given, against the elasticity; the others are those of `settled`.
     """
     elasticity, areas = source.elasticity, source.areas
-    weights, goals = areas, images
     y = elasticity.smoother(GIVEN_TIME)(areas[:, None] * images)
-    for number, (stiff, steps) in enumerate(stages):
-        solve = elasticity.smoother(stiff) if number == 0 else None
-        for _ in range(steps):
-            if solve is None or number > 0:
-                weights, goals = _Pairing.of(source, target, y, partial).springs(source, target)
-                solve = elasticity.solver(stiff, weights)
-            pull = elasticity.force(elasticity.turns(y, growing))
-            y = solve(stiff * pull + weights[:, None] * goals)
-    return registered(source, target, y, growing=growing, partial=partial)
+    stiff, steps = stages[0]
+    for _ in range(steps):
+        pull = elasticity.force(elasticity.turns(y, growing))
+        y = elasticity.smoother(stiff)(stiff * pull + areas[:, None] * images)
+    return settled(source, target, y, stages[1:], growing=growing, partial=partial, views=views)
 
 
-@dataclass(frozen=True, eq=False)
-class _Pairing:
-    """Closest points of a deformed source and a target, both ways: of every source vertex, of every usable target one.
+def settled(
+    source: Geometry,
+    target: Geometry,
+    y: Array,
+    stages: Sequence[tuple[float, int]],
+    *,
+    growing: bool,
+    partial: bool = False,
+    views: tuple[View, View] | None = None,
+) -> Registered:
+    """The source, with its vertices at y (n, 3) to begin with, deformed so that they lie on the target.
 
-    `weight` (n,), `weight_back` (q,): areas, or 0 where the closest point is on a boundary: what it should be paired
-    with may be missing.
+    In turn, every vertex of either surface looks for the closest point of the other, in position and normal (as in
+    ICP: Besl and McKay 1992; both ways, so that nothing of the target is left out), and the source takes the shape of
+    least elastic energy that is held there by springs. The springs grow ever stronger against the elasticity.
+    `growing`: whether the elasticity lets parts change size; `partial`: whether what is closest to a boundary is left
+    alone, as what it belongs to may be missing; `views` of both: whether eigenfunctions take part in the search.
     """
-
-    points: SurfacePoints
-    back: Index
-    weight: Array
-    weight_back: Array
-
-    @classmethod
-    def of(cls, source: Geometry, target: Geometry, y: Array, partial: bool) -> _Pairing:
-        features = source.moved_features(y)
-        near = target.usable[target.tree.query(features)[1]]
-        points = target.closest(features, target.features, near)
-        back = source.usable[cKDTree(features[source.usable]).query(target.features[target.usable])[1]]
-        weight, weight_back = source.areas, target.areas[target.usable]
-        if partial:
-            weight = np.where(target.on_boundary(points), 0.0, weight)
-            weight_back = np.where(source.boundary[back], 0.0, weight_back)
-        return cls(points, back, weight, weight_back)
-
-    def springs(self, source: Geometry, target: Geometry) -> tuple[Array, Array]:
-        """Weights (n,) and ends (n, 3) of the springs that pull on vertices: to the target, and those from it."""
-        place, n = target.mesh.vertices[target.usable], source.mesh.n_vertices
-        weights = self.weight + np.bincount(self.back, self.weight_back, minlength=n)
-        total = self.weight[:, None] * self.points.positions
-        for k in range(3):
-            total[:, k] += np.bincount(self.back, self.weight_back * place[:, k], minlength=n)
-        return weights, total / np.maximum(weights, np.finfo(float).tiny)[:, None]
+    elasticity = source.elasticity
+    for stiff, steps in stages:
+        for _ in range(steps):
+            weights, goals = Pairing.of(source, target, y, partial, views).springs(source, target)
+            pull = elasticity.force(elasticity.turns(y, growing))
+            y = elasticity.solver(stiff, weights)(stiff * pull + weights[:, None] * goals)
+    return registered(source, target, y, growing=growing, partial=partial)
 
 
 def registered(source: Geometry, target: Geometry, y: Array, *, growing: bool, partial: bool = False) -> Registered:
     """The source with its vertices at y (n, 3), as it is."""
-    elasticity, pairing = source.elasticity, _Pairing.of(source, target, y, partial)
+    elasticity, pairing = source.elasticity, Pairing.of(source, target, y, partial)
     points, back = pairing.points, pairing.back
     energy = elasticity.energy(y, elasticity.turns(y, growing))
     gap = np.linalg.norm(points.positions - y, axis=1)
@@ -149,19 +136,22 @@ def registered(source: Geometry, target: Geometry, y: Array, *, growing: bool, p
     return Registered(y, points, energy / np.maximum(source.areas, np.finfo(float).tiny), residuals)
 
 
-def both_ways(source: Geometry, target: Geometry, found: Registered) -> Registered:
+def both_ways(
+    source: Geometry, target: Geometry, found: Registered, views: tuple[View, View] | None = None
+) -> Registered:
     """A registration improved by the opposite one: the target deformed onto the source starts where this one ended.
 
-    The source is registered again from the middle between where it lay and where the deformed target says it belongs:
-    what slides one way in the one slides the other way in the other.
+    The source settles again from the middle between where it lay and where the deformed target says it belongs: what
+    slides one way in the one slides the other way in the other. `views` as in `settled`.
     """
     features = source.moved_features(found.y)
     begun = source.mesh.vertices[source.usable[cKDTree(features[source.usable]).query(target.features)[1]]]
-    back = register(target, source, begun, BACK, growing=True, partial=True)
+    opposite = None if views is None else (views[1], views[0])
+    back = register(target, source, begun, BACK, growing=True, partial=True, views=opposite)
     rows = target.moved_features(back.y)
     near = target.usable[cKDTree(rows[target.usable]).query(source.features)[1]]
     there = target.closest(source.features, rows, near).positions
-    return register(source, target, (found.y + there) / 2, AGAIN, growing=True, partial=True)
+    return register(source, target, (found.y + there) / 2, AGAIN, growing=True, partial=True, views=views)
 
 
 def _root_mean_square(values: Array, weights: Array) -> float:

@@ -30,6 +30,7 @@ Index = NDArray[np.int64]
 
 FEWEST_VERTICES = 12  # below this there are not enough eigenfunctions to start from
 EIGENFUNCTIONS = 100
+DETAIL_FUNCTIONS = 150  # for the last registration
 ENOUGH_EIGENFUNCTIONS = 30
 SMOOTHING = 2e-2  # of the curvature: the starts want its large features, not its details
 DETAIL = 1e-3  # smoothing of the mean curvature that tells the chest from the back
@@ -120,12 +121,22 @@ class Surface:
     @functools.cached_property
     def regular(self) -> View:
         """The surface in the metric of space."""
-        return self.view(embedded)
+        return self.detail.first(self.count)
+
+    @functools.cached_property
+    def detail(self) -> View:
+        """The same with more eigenfunctions."""
+        return View.of(eigenpairs(embedded(self.mesh), min(DETAIL_FUNCTIONS, self._most)))
 
     @functools.cached_property
     def count(self) -> int:
         """Number of eigenfunctions in each view."""
-        return min(EIGENFUNCTIONS, len(np.unique(self.mesh.faces)) - 1)
+        return min(EIGENFUNCTIONS, self._most)
+
+    @functools.cached_property
+    def _most(self) -> int:
+        """Number of eigenfunctions there are."""
+        return len(np.unique(self.mesh.faces)) - 1
 
     @functools.cached_property
     def areas(self) -> Array:

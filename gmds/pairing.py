@@ -1,0 +1,94 @@
+"""Which point of a deformed surface goes with which point of another: the closest, in position, normal and spectrum."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from geodesics import SurfacePoints
+from gmds.geometry import Geometry
+from gmds.surface import View
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+SPECTRAL_WEIGHT = 0.15  # root areas that root mean square eigenfunctions, all taken together, are worth
+CANDIDATES = 10  # closest vertices in position and normal among which eigenfunctions decide
+_BLOCK = 1 << 12  # queries compared at a time
+
+
+@dataclass(frozen=True, eq=False)
+class Pairing:
+    """Closest points of a deformed source and a target, both ways: of every source vertex, of every usable target one.
+
+    `weight` (n,), `weight_back` (q,): areas, or 0 where the closest point is on a boundary: what it should be paired
+    with may be missing.
+    """
+
+    points: SurfacePoints
+    back: Index
+    weight: Array
+    weight_back: Array
+
+    @classmethod
+    def of(
+        cls, source: Geometry, target: Geometry, y: Array, partial: bool, views: tuple[View, View] | None = None
+    ) -> Pairing:
+        """The pairing with the source at y (n, 3).
+
+        With `views`, of the undeformed surfaces, their eigenfunctions count as well: those of the source, as the
+        functional map of the closest points carries them over, beside those of the target (as in ZoomOut: Melzi et al.
+        2019). They keep round limbs from turning about their axis, where position and normal say nothing.
+        """
+        ours, theirs = source.moved_features(y), target.features
+        if views is None:
+            near = target.usable[target.tree.query(ours)[1]]
+            back = source.usable[cKDTree(ours[source.usable]).query(theirs[target.usable])[1]]
+        else:
+            few = min(CANDIDATES, len(source.usable), len(target.usable))
+            ahead = target.usable[target.tree.query(ours, k=few)[1]].reshape(-1, few)
+            behind = source.usable[cKDTree(ours[source.usable]).query(theirs[target.usable], k=few)[1]].reshape(-1, few)
+            here, there = _spectral_rows(source, views, ahead[:, 0])
+            ours, theirs = np.hstack([ours, here]), np.hstack([theirs, there])
+            near, back = _nearest(ours, theirs, ahead), _nearest(theirs[target.usable], ours, behind)
+        points = target.closest(ours, theirs, near)
+        weight, weight_back = source.areas, target.areas[target.usable]
+        if partial:
+            weight = np.where(target.on_boundary(points), 0.0, weight)
+            weight_back = np.where(source.boundary[back], 0.0, weight_back)
+        return cls(points, back, weight, weight_back)
+
+    def springs(self, source: Geometry, target: Geometry) -> tuple[Array, Array]:
+        """Weights (n,) and ends (n, 3) of the springs that pull on vertices: to the target, and those from it."""
+        place, n = target.mesh.vertices[target.usable], source.mesh.n_vertices
+        weights = self.weight + np.bincount(self.back, self.weight_back, minlength=n)
+        total = self.weight[:, None] * self.points.positions
+        for k in range(3):
+            total[:, k] += np.bincount(self.back, self.weight_back * place[:, k], minlength=n)
+        return weights, total / np.maximum(weights, np.finfo(float).tiny)[:, None]
+
+
+def _spectral_rows(source: Geometry, views: tuple[View, View], images: Index) -> tuple[Array, Array]:
+    """Eigenfunctions (n, k), (q, k) of both surfaces as the map to `images` (n,) identifies them, weighted.
+
+    Column j holds target function j, and what is left of it when it is pulled back by the map and written in source
+    functions.
+    """
+    k = min(view.functions.shape[1] for view in views)
+    ours, theirs = (view.functions[:, :k] for view in views)
+    weighted = theirs * (SPECTRAL_WEIGHT / np.sqrt(k))
+    return ours @ (ours.T @ (source.areas[:, None] * weighted[images])), weighted
+
+
+def _nearest(queries: Array, rows: Array, candidates: Index) -> Index:
+    """For each query (p, k) the index of the nearest of the rows (n, k) that are its `candidates` (p, c)."""
+    q, r = queries.astype(np.float32), rows.astype(np.float32)
+    half, result = 0.5 * np.einsum("nk,nk->n", r, r), np.empty(len(q), dtype=np.int64)
+    for start in range(0, len(q), _BLOCK):
+        here = candidates[start : start + _BLOCK]
+        gap = half[here] - np.einsum("pk,pck->pc", q[start : start + _BLOCK], r[here], optimize=True)
+        result[start : start + _BLOCK] = here[np.arange(len(here)), gap.argmin(axis=1)]
+    return result
