@@ -1,0 +1,86 @@
+"""What the scripts of this folder share: options, the shapes they run on, grids of pictures, and files of figures."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
+
+from geodesics import Mesh, read_mesh
+from gmds.colours import label_colours, value_colours
+from gmds.rendering import render
+from gmds.shapes import quadruped
+from gmds.views import broadside
+
+Picture = np.ndarray
+Y_UP = (0, 1, 0)  # TOSCA
+
+
+def options(about: str, *extra: tuple[str, Mapping[str, Any]]) -> argparse.Namespace:
+    """--output (folder), --data (folder of published shapes, or None), --small (a setting for tests)."""
+    parser = argparse.ArgumentParser(description=about)
+    parser.add_argument("-o", "--output", type=Path, default=Path("paper"), help="folder for the picture and the JSON")
+    data = os.environ.get("GMDS_DATA")
+    parser.add_argument("--data", type=Path, default=Path(data) if data else None, help="published shapes, if any")
+    parser.add_argument("--small", action="store_true", help="few vertices and built-in shapes only, for tests")
+    for name, settings in extra:
+        parser.add_argument(name, **settings)
+    found = parser.parse_args()
+    found.data = None if found.small else found.data
+    return found
+
+
+def shapes(settings: argparse.Namespace) -> Iterator[tuple[str, Mesh, tuple[int, int, int]]]:
+    """(name, mesh, which way is up): the built-in animal, and the centaur and the horse of TOSCA where they are."""
+    yield "animal", quadruped(n_vertices=1000 if settings.small else 4000), (0, 0, 1)
+    for name in () if settings.data is None else ("centaur0", "horse0"):
+        yield name, read_mesh(settings.data / "tosca_5k" / f"{name}.off"), Y_UP
+
+
+def picture(
+    mesh: Mesh,
+    values: ArrayLike,
+    up: tuple[int, int, int],
+    limits: tuple[float, float] | None = None,
+    *,
+    pixels: int = 300,
+) -> Picture:
+    """The mesh with values (n,) as colours between limits; with whole numbers and no limits, as labels."""
+    colours = label_colours(values) if limits is None else value_colours(values, *limits)
+    return render(mesh, colours, rotation=broadside(mesh, up), pixels=pixels, sharp=limits is None)
+
+
+def grid(rows: Sequence[tuple[str, Sequence[Picture | None]]], columns: Sequence[str], title: str) -> Figure:
+    """A figure of pictures in named rows and columns."""
+    figure = Figure(figsize=(2.6 * len(columns) + 0.4, 2.2 * len(rows) + 0.6), dpi=110, layout="constrained")
+    FigureCanvasAgg(figure)
+    axes = figure.subplots(len(rows), len(columns), squeeze=False)
+    for (name, pictures), line in zip(rows, axes, strict=True):
+        for image, axis in zip(pictures, line, strict=True):
+            axis.set_xticks([])
+            axis.set_yticks([])
+            axis.spines[:].set_visible(False)
+            if image is not None:
+                axis.imshow(image)
+        line[0].set_ylabel(name, fontsize=9)
+    for caption, axis in zip(columns, axes[0], strict=True):
+        axis.set_title(caption, fontsize=9)
+    figure.suptitle(title, fontsize=11)
+    return figure
+
+
+def publish(output: Path, name: str, figure: Figure, numbers: Mapping[str, Any]) -> None:
+    """Write <name>.png and <name>.json to a folder, and print the numbers."""
+    output.mkdir(parents=True, exist_ok=True)
+    figure.savefig(output / f"{name}.png", metadata={"Software": None})
+    text = json.dumps(numbers, indent=2, default=lambda value: value.item())
+    (output / f"{name}.json").write_text(text + "\n", encoding="utf-8")
+    print(text)
