@@ -1,7 +1,8 @@
 """Known deformations with known truth, one a file.
 
 Each takes a `Mesh` and gives the deformed `Mesh` with the truth: one point of the new mesh (`SurfacePoints`) per vertex
-of the old one. `compose` chains them. Random choices take a seed and repeat exactly.
+of the old one. `compose` chains them; `deformed` makes those of Table 1 in five strengths. Random choices take a seed
+and repeat exactly.
 """
 
 from gmds.deformations.bending import bending
@@ -13,18 +14,24 @@ from gmds.deformations.noise import noise
 from gmds.deformations.remeshing import remeshing
 from gmds.deformations.shot_noise import shot_noise
 from gmds.deformations.similarity import similarity
+from gmds.deformations.strengths import KINDS, STRENGTHS, Kind, deformed, local_scale
 from gmds.deformations.truths import Deformation, carried, compose
 
 __all__ = [
+    "KINDS",
+    "STRENGTHS",
     "Deformation",
+    "Kind",
     "achieved_log_scale",
     "bending",
     "branch_log_scale",
     "carried",
     "compose",
+    "deformed",
     "global_scale",
     "gluing",
     "holes",
+    "local_scale",
     "local_scaling",
     "noise",
     "remeshing",

@@ -1,0 +1,74 @@
+"""The seven classes of deformation of Table 1, each in five published strengths."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from geodesics import Mesh, SurfacePoints
+from gmds.deformations.bending import bending
+from gmds.deformations.global_scale import global_scale
+from gmds.deformations.gluing import gluing
+from gmds.deformations.holes import holes
+from gmds.deformations.local_scaling import branch_log_scale, local_scaling
+from gmds.deformations.noise import noise
+from gmds.deformations.shot_noise import shot_noise
+
+STRENGTHS = (1, 2, 3, 4, 5)
+
+
+def local_scale(mesh: Mesh, factor: float = 1.6, *, count: int = 4, rng: int = 0) -> tuple[Mesh, SurfacePoints]:
+    """The mesh with `count` limbs grown and shrunk, in turn, by `factor`: `local_scaling` by a `branch_log_scale`."""
+    return local_scaling(mesh, branch_log_scale(mesh, factor, count=count, rng=rng))
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A class of deformations: what makes them, and each parameter's value at the strengths 1 to 5."""
+
+    function: Callable[..., tuple[Mesh, SurfacePoints]]
+    table: Mapping[str, tuple[float, ...]]
+
+    def parameters(self, strength: int) -> dict[str, float]:
+        """The parameters at a strength from 1 to 5; ValueError for another."""
+        if strength not in STRENGTHS:
+            raise ValueError(f"strength must be one of {', '.join(map(str, STRENGTHS))}, not {strength}")
+        return {name: values[strength - 1] for name, values in self.table.items()}
+
+    def apply(self, mesh: Mesh, rng: int, **parameters: float) -> tuple[Mesh, SurfacePoints]:
+        """The deformed mesh and the truth; `rng` is left out where nothing is random."""
+        seed = {"rng": rng} if "rng" in inspect.signature(self.function).parameters else {}
+        return self.function(mesh, **parameters, **seed)
+
+
+KINDS: Mapping[str, Kind] = MappingProxyType(
+    {
+        # degrees, limbs
+        "isometry": Kind(bending, {"angle": (10, 20, 30, 40, 50), "count": (4, 4, 4, 4, 4)}),
+        # pairs of vertices that become one
+        "topology": Kind(gluing, {"count": (1, 2, 3, 4, 5)}),
+        # vertices cut out, each with its ring of faces
+        "micro-holes": Kind(holes, {"count": (8, 16, 24, 32, 40), "radius": (0, 0, 0, 0, 0)}),
+        # farther and farther from 1, larger and smaller in turn
+        "scale": Kind(global_scale, {"factor": (1.25, 0.65, 2.0, 0.35, 4.0)}),
+        # ratio of lengths after and before at the tip of a limb, limbs
+        "local-scale": Kind(local_scale, {"factor": (1.2, 1.4, 1.6, 1.8, 2.0), "count": (4, 4, 4, 4, 4)}),
+        # standard deviation, in mean edge lengths
+        "noise": Kind(noise, {"strength": (0.05, 0.1, 0.15, 0.2, 0.25)}),
+        # mean edge lengths, share of the vertices
+        "shot-noise": Kind(shot_noise, {"strength": (2, 2, 2, 2, 2), "share": (0.004, 0.008, 0.012, 0.016, 0.02)}),
+    }
+)
+
+
+def deformed(mesh: Mesh, kind: str, strength: int, rng: int = 0) -> tuple[Mesh, SurfacePoints]:
+    """The mesh under one of the `KINDS` of deformation at a strength from 1 to 5 (Table 1), and its truth.
+
+    The truth is one point of the new mesh per old vertex. `rng` chooses limbs, places and noise; the same seed at
+    another strength chooses the same ones. ValueError for an unknown kind or strength.
+    """
+    if kind not in KINDS:
+        raise ValueError(f"kind must be one of {', '.join(KINDS)}, not {kind!r}")
+    return KINDS[kind].apply(mesh, rng, **KINDS[kind].parameters(strength))
