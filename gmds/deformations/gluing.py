@@ -12,14 +12,15 @@ def gluing(mesh: Mesh, count: int = 1, *, rng: int = 0) -> tuple[Mesh, SurfacePo
     """The mesh with up to `count` pairs of vertices, near in space and far along the surface, made one vertex each.
 
     Pairs are those with the least ratio of distance in space to distance along edges, among 200 random vertices and
-    the whole surface. The two vertices of a pair meet half way; the later one leaves the numbering.
+    the whole surface, on one connected piece. The two vertices of a pair meet half way; the later one leaves the numbering.
     """
     random = np.random.default_rng(rng)
     some = random.permutation(mesh.n_vertices)[:200]
     along = edge_distances(mesh, some)
     across = np.linalg.norm(mesh.vertices[some][:, None] - mesh.vertices[None], axis=2)
     limit = 0.25 * along[np.isfinite(along)].max()
-    ratio = np.where((along > limit) & (across > 0), across / np.where(along > 0, along, 1), np.inf)
+    apart = (along > limit) & np.isfinite(along) & (across > 0)
+    ratio = np.where(apart, across / np.where(apart, along, 1), np.inf)
     vertices, partner = mesh.vertices.copy(), np.arange(mesh.n_vertices)
     for row in ratio.min(axis=1).argsort(kind="stable"):
         a, b = int(some[row]), int(ratio[row].argmin())
