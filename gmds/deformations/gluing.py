@@ -12,7 +12,7 @@ def gluing(mesh: Mesh, count: int = 1, *, rng: int = 0) -> tuple[Mesh, SurfacePo
     """The mesh with up to `count` pairs of vertices, near in space and far along the surface, made one vertex each.
 
     Pairs are those with the least ratio of distance in space to distance along edges, among 200 random vertices and
-    the whole surface, on one connected piece. The two vertices of a pair meet half way; the later one leaves the numbering.
+    all others of their connected piece. The two vertices of a pair meet half way; the later one leaves the numbering.
     """
     random = np.random.default_rng(rng)
     some = random.permutation(mesh.n_vertices)[:200]

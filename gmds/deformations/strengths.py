@@ -17,6 +17,7 @@ from gmds.deformations.noise import noise
 from gmds.deformations.shot_noise import shot_noise
 
 STRENGTHS = (1, 2, 3, 4, 5)
+_NUMBERS = {"int": int, "float": float, "int | None": int}  # by annotation, as the modules write it
 
 
 def local_scale(mesh: Mesh, factor: float = 1.6, *, count: int = 4, rng: int = 0) -> tuple[Mesh, SurfacePoints]:
@@ -36,6 +37,12 @@ class Kind:
         if strength not in STRENGTHS:
             raise ValueError(f"strength must be one of {', '.join(map(str, STRENGTHS))}, not {strength}")
         return {name: values[strength - 1] for name, values in self.table.items()}
+
+    @property
+    def types(self) -> dict[str, type]:
+        """The parameters that are numbers: int or float, by name."""
+        parameters = inspect.signature(self.function).parameters.values()
+        return {p.name: _NUMBERS[p.annotation] for p in parameters if p.name != "rng" and p.annotation in _NUMBERS}
 
     def apply(self, mesh: Mesh, rng: int, **parameters: float) -> tuple[Mesh, SurfacePoints]:
         """The deformed mesh and the truth; `rng` is left out where nothing is random."""
