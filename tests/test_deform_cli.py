@@ -110,3 +110,12 @@ def test_what_can_not_be_done_is_one_line(path: Path, tmp_path: Path) -> None:
     for kind in ("scale:factor=-1", "micro-holes:radius=9"):
         result = run(path, kind, "-o", tmp_path / "x.ply")
         assert result.exit_code == 1 and len(result.stderr.splitlines()) == 1, result.output
+
+
+def test_a_surface_with_many_holes_can_be_remeshed(path: Path, animal: Mesh, tmp_path: Path) -> None:
+    result = run(path, "micro-holes:count=90", "-o", tmp_path / "x.ply", "--remesh", 300)  # many of them touch
+    assert result.exit_code == 0, result.output
+    glued = run(path, "remesh:n_vertices=500", "topology:1", "-o", tmp_path / "x.ply")
+    assert glued.exit_code == 0, glued.output
+    result = run(path, "topology:1", "-o", tmp_path / "x.ply", "--remesh", 500)
+    assert result.exit_code == 1 and "remesh before" in result.stderr

@@ -57,6 +57,7 @@ def command(
       gmds deform dog.ply local-scale:factor=2.5,count=1 -o other.ply
 
     The truth is a map that `gmds evaluate` and numpy can read: for every vertex of MESH its point on the new mesh.
+    Only a manifold surface can be remeshed: let remesh come before topology.
     Every step draws its random choices from the seed and its place in the order.
     """
     from geodesics import read_mesh, write_mesh

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from geodesics import Mesh, SurfacePoints
 from geodesics.topology import vertex_components
@@ -12,14 +13,16 @@ from gmds.deformations.extremities import edge_distances
 def holes(mesh: Mesh, count: int = 5, *, radius: float = 0.05, rng: int = 0) -> tuple[Mesh, SurfacePoints]:
     """The mesh without the vertices nearer than `radius` sqrt(area) to `count` random ones; radius 0 cuts single rings.
 
-    Only the largest connected piece is kept. Vertices that are left keep their order and their truth is exact; a
-    lost vertex gets the point of the rest closest in space, at a distance from its own place that says that it is lost.
+    Vertices at which two holes meet go as well, and only the largest connected piece is kept. Vertices that are left
+    keep their order and their truth is exact; a lost vertex gets the point of the rest closest in space, at a distance
+    from its own place that says that it is lost.
     Raises ValueError when nothing is left.
     """
     random = np.random.default_rng(rng)
     centres = random.permutation(mesh.n_vertices)[:count]
     distance = edge_distances(mesh, centres).min(axis=0) if count else np.full(mesh.n_vertices, np.inf)
     faces = mesh.faces[(distance > radius * np.sqrt(mesh.area))[mesh.faces].all(axis=1)]
+    faces = _without_bow_ties(faces, mesh.faces)
     if len(faces) == 0:
         raise ValueError(f"{count} holes of radius {radius} leave nothing; ask for fewer or smaller ones")
     label = vertex_components(Mesh(mesh.vertices, faces))[faces[:, 0]]
@@ -31,3 +34,18 @@ def holes(mesh: Mesh, count: int = 5, *, radius: float = 0.05, rng: int = 0) -> 
     exact = SurfacePoints.at_vertices(result, np.arange(result.n_vertices))
     face[kept], barycentric[kept] = exact.face, exact.barycentric
     return result, SurfacePoints(result, face, barycentric)
+
+
+def _without_bow_ties(faces: NDArray[np.int64], before: NDArray[np.int64]) -> NDArray[np.int64]:
+    """The faces without those at vertices where sheets meet now and did not before."""
+    import igl
+
+    fine = np.asarray(igl.is_vertex_manifold(before))
+    while len(faces):
+        now = np.asarray(igl.is_vertex_manifold(faces))
+        torn = np.flatnonzero(fine[: len(now)] & ~now)
+        torn = torn[np.isin(torn, faces)]
+        if len(torn) == 0:
+            break
+        faces = faces[~np.isin(faces, torn).any(axis=1)]
+    return faces

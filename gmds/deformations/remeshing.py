@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+from numpy.typing import NDArray
 
 from geodesics import Mesh, SurfacePoints
 from geodesics.errors import NotManifold
@@ -31,14 +32,23 @@ def remeshing(
     wanted = mesh.n_vertices if n_vertices is None else n_vertices
     if wanted < 12:
         raise ValueError(f"n_vertices must be at least 12, not {wanted}")
-    if not igl.is_edge_manifold(mesh.faces)[0] or not np.all(igl.is_vertex_manifold(mesh.faces)):
-        raise NotManifold("only a manifold surface can be remeshed; remove the faces or vertices where sheets meet")
     vertices, faces = mesh.vertices, mesh.faces
-    while len(vertices) < 4 * wanted:
+    while _manifold(faces) and len(vertices) < 4 * wanted:
         vertices, faces = igl.upsample(vertices, faces, 1)
+    if not _manifold(faces):
+        raise NotManifold(
+            "only a manifold surface can be remeshed; remove the faces or vertices where sheets meet, "
+            "or remesh before they are glued"
+        )
     fine = Mesh(vertices, faces)
     shaken = fine.vertices + np.random.default_rng(rng).normal(0, 0.2 * mean_edge_length(fine), fine.vertices.shape)
     fine = Mesh(SurfacePoints.closest(mesh, shaken).positions, fine.faces)
     new, faces = collapse(fine, wanted)
     result = Mesh(new, faces)
     return result, SurfacePoints.closest(result, mesh.vertices)
+
+
+def _manifold(faces: NDArray[np.int64]) -> bool:
+    import igl
+
+    return bool(igl.is_edge_manifold(faces)[0] and np.all(igl.is_vertex_manifold(faces)))
