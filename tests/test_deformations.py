@@ -183,6 +183,17 @@ def test_remeshing_keeps_topology_and_boundary() -> None:
     assert np.linalg.norm(truth.positions - rectangle(15, 15).vertices, axis=1).max() < 0.07
 
 
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+def test_adaptive_remeshing_keeps_what_is_thin(animal: Mesh, size: float) -> None:
+    coarse = Mesh(size * animal.vertices, animal.faces)
+    (even, _), (new, truth) = d.remeshing(coarse, 400), d.remeshing(coarse, 400, adaptive=True)
+    assert even.n_vertices == new.n_vertices == 400
+    assert coarse.area - new.area < 0.75 * (coarse.area - even.area)  # limbs lose less of their area
+    assert (truth.barycentric.max(axis=1) < 0.99).mean() > 0.8
+    sheet, _ = d.remeshing(rectangle(15, 15), adaptive=True)
+    assert boundary_vertices(sheet).any() and sheet.area == pytest.approx(rectangle(15, 15).area, rel=0.05)
+
+
 def test_remeshing_with_a_remesher_of_ones_own(animal: Mesh) -> None:
     new, truth = d.remeshing(animal, remesher=lambda m: Mesh(m.vertices, m.faces[::-1]))
     assert np.allclose(truth.positions, animal.vertices) and np.array_equal(new.faces[0], animal.faces[-1])

@@ -14,14 +14,20 @@ from gmds.triangulation import collapse
 
 
 def remeshing(
-    mesh: Mesh, n_vertices: int | None = None, *, remesher: Callable[[Mesh], Mesh] | None = None, rng: int = 0
+    mesh: Mesh,
+    n_vertices: int | None = None,
+    *,
+    adaptive: bool = False,
+    remesher: Callable[[Mesh], Mesh] | None = None,
+    rng: int = 0,
 ) -> tuple[Mesh, SurfacePoints]:
     """Another triangulation of the surface, and the points of it closest to the old vertices.
 
     By default with about `n_vertices` (as many as before): the mesh is subdivided until it has four times as many,
-    its vertices are shaken along the surface, and the shortest edges collapse. A `remesher`, for instance
-    `lambda m: geodesics.repair.remesh(m, 5000)`, replaces all that. New triangles are chords of the old surface, so
-    the truth is off by about (edge length)^2 / (8 curvature radius).
+    its vertices are shaken along the surface, and the shortest edges collapse. Even triangles cut off what is thinner
+    than they are wide, such as fingers; `adaptive` ones, small where the surface is thin, keep it. A `remesher`, for
+    instance `lambda m: geodesics.repair.remesh(m, 5000)`, replaces all that. New triangles are chords of the old
+    surface, so the truth is off by about (edge length)^2 / (8 curvature radius).
     Raises `NotManifold` (E110) where sheets meet in an edge or a vertex, `ValueError` below 12 vertices.
     """
     if remesher is not None:
@@ -43,7 +49,7 @@ def remeshing(
     fine = Mesh(vertices, faces)
     shaken = fine.vertices + np.random.default_rng(rng).normal(0, 0.2 * mean_edge_length(fine), fine.vertices.shape)
     fine = Mesh(SurfacePoints.closest(mesh, shaken).positions, fine.faces)
-    new, faces = collapse(fine, wanted)
+    new, faces = collapse(fine, wanted, adaptive=adaptive)
     result = Mesh(new, faces)
     return result, SurfacePoints.closest(result, mesh.vertices)
 
