@@ -16,14 +16,20 @@ def collapse(mesh: Mesh, n_vertices: int, *, adaptive: bool = False) -> tuple[Ar
     """Vertices (about n_vertices, 3) and faces of an even triangulation near the mesh, shortest edges collapsed first.
 
     `adaptive` collapses first what changes the surface least (quadric error, Garland and Heckbert 1997): triangles stay
-    small where the surface is thin or sharply bent. Exactly `n_vertices` on a closed surface of genus 0. Afterwards edges are flipped towards Delaunay and vertices
-    moved to the middle of their neighbours; they lie near the surface, not on it.
+    small where the surface is thin or sharply bent. Exactly `n_vertices` on a closed surface of genus 0. Afterwards
+    edges are flipped towards Delaunay and vertices moved to the middle of their neighbours; they lie near the surface,
+    not on it.
     """
     import igl
 
     closed_faces = mesh.n_faces - 2 * (mesh.n_vertices - n_vertices)
     vertices, faces = np.asfortranarray(mesh.vertices), np.asfortranarray(mesh.faces.astype(np.int32))
-    v, f = (igl.qslim if adaptive else igl.decimate)(vertices, faces, int(closed_faces))[:2]
+    if adaptive:
+        size = np.ptp(vertices, axis=0).max()  # a surface of any size: quadrics are compared with absolute numbers
+        v, f = igl.qslim(np.asfortranarray(vertices / size), faces, int(closed_faces))[:2]
+        v = size * v
+    else:
+        v, f = igl.decimate(vertices, faces, int(closed_faces))[:2]
     v, f = np.ascontiguousarray(v), np.ascontiguousarray(f, dtype=np.int64)
     inside = ~boundary_vertices(Mesh(v, f))
     for _ in range(3):
