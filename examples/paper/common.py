@@ -14,14 +14,18 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from geodesics import Mesh, read_mesh
+from PIL import Image
+
+from geodesics import Mesh, SurfacePoints, embedded, read_mesh, scale_invariant
 from gmds.colours import label_colours, value_colours
+from gmds.deformations import branch_log_scale, compose, local_scaling, remeshing
 from gmds.rendering import render
 from gmds.shapes import quadruped
 from gmds.views import broadside
 
 Picture = np.ndarray
-Y_UP = (0, 1, 0)  # TOSCA
+METRICS = {"regular": embedded, "invariant": scale_invariant}
+Z_UP = (0, 0, 1)
 
 
 def options(about: str, *extra: tuple[str, Mapping[str, Any]]) -> argparse.Namespace:
@@ -40,9 +44,19 @@ def options(about: str, *extra: tuple[str, Mapping[str, Any]]) -> argparse.Names
 
 def shapes(settings: argparse.Namespace) -> Iterator[tuple[str, Mesh, tuple[int, int, int]]]:
     """(name, mesh, which way is up): the built-in animal, and the centaur and the horse of TOSCA where they are."""
-    yield "animal", quadruped(n_vertices=1000 if settings.small else 4000), (0, 0, 1)
+    yield "animal", quadruped(n_vertices=1000 if settings.small else 4000), Z_UP
     for name in () if settings.data is None else ("centaur0", "horse0"):
-        yield name, read_mesh(settings.data / "tosca_5k" / f"{name}.off"), Y_UP
+        yield name, read_mesh(settings.data / "tosca_5k" / f"{name}.off"), Z_UP
+
+
+def copies(mesh: Mesh) -> dict[str, tuple[Mesh, SurfacePoints]]:
+    """The mesh with some limbs up to twice as large and others half as large, and where its vertices went.
+
+    Once with the same triangles, and once with others.
+    """
+    grown = local_scaling(mesh, branch_log_scale(mesh, 2.0, count=4, rng=1))
+    again = compose(lambda _: grown, lambda m: remeshing(m, adaptive=True))(mesh)
+    return {"same triangles": grown, "remeshed": again}
 
 
 def picture(
@@ -51,11 +65,19 @@ def picture(
     up: tuple[int, int, int],
     limits: tuple[float, float] | None = None,
     *,
+    like: Mesh | None = None,
     pixels: int = 300,
 ) -> Picture:
-    """The mesh with values (n,) as colours between limits; with whole numbers and no limits, as labels."""
-    colours = label_colours(values) if limits is None else value_colours(values, *limits)
-    return render(mesh, colours, rotation=broadside(mesh, up), pixels=pixels, sharp=limits is None)
+    """The mesh with values (n,) as colours between limits; with whole numbers and no limits, as labels.
+
+    Values (n, 3) are colours as they stand. Seen as the mesh `like`, if given, would be seen.
+    """
+    if np.ndim(values) == 2:
+        colours, sharp = np.asarray(values), False
+    else:
+        colours = label_colours(values) if limits is None else value_colours(values, *limits)
+        sharp = limits is None
+    return render(mesh, colours, rotation=broadside(like or mesh, up), pixels=pixels, sharp=sharp)
 
 
 def grid(rows: Sequence[tuple[str, Sequence[Picture | None]]], columns: Sequence[str], title: str) -> Figure:
@@ -80,7 +102,9 @@ def grid(rows: Sequence[tuple[str, Sequence[Picture | None]]], columns: Sequence
 def publish(output: Path, name: str, figure: Figure, numbers: Mapping[str, Any]) -> None:
     """Write <name>.png and <name>.json to a folder, and print the numbers."""
     output.mkdir(parents=True, exist_ok=True)
-    figure.savefig(output / f"{name}.png", metadata={"Software": None})
+    figure.canvas.draw()
+    pixels = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")
+    pixels.quantize(200).save(output / f"{name}.png", optimize=True)  # a third of the bytes
     text = json.dumps(numbers, indent=2, default=lambda value: value.item())
     (output / f"{name}.json").write_text(text + "\n", encoding="utf-8")
     print(text)
