@@ -13,7 +13,6 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
-
 from PIL import Image
 
 from geodesics import Mesh, SurfacePoints, embedded, read_mesh, scale_invariant
@@ -80,10 +79,12 @@ def picture(
     return render(mesh, colours, rotation=broadside(like or mesh, up), pixels=pixels, sharp=sharp)
 
 
-def grid(rows: Sequence[tuple[str, Sequence[Picture | None]]], columns: Sequence[str], title: str) -> Figure:
-    """A figure of pictures in named rows and columns."""
-    figure = Figure(figsize=(2.6 * len(columns) + 0.4, 2.2 * len(rows) + 0.6), dpi=110, layout="constrained")
-    FigureCanvasAgg(figure)
+def grid(
+    rows: Sequence[tuple[str, Sequence[Picture | None]]], columns: Sequence[str], title: str, *, size: float = 1.0
+) -> Figure:
+    """A figure of pictures in named rows and columns, `size` times as large as 2.6 by 2.2 inches each."""
+    inches = 2.6 * size * len(columns) + 0.4, 2.2 * size * len(rows) + 0.6
+    figure = Figure(figsize=inches, dpi=110, layout="constrained")
     axes = figure.subplots(len(rows), len(columns), squeeze=False)
     for (name, pictures), line in zip(rows, axes, strict=True):
         for image, axis in zip(pictures, line, strict=True):
@@ -102,9 +103,14 @@ def grid(rows: Sequence[tuple[str, Sequence[Picture | None]]], columns: Sequence
 def publish(output: Path, name: str, figure: Figure, numbers: Mapping[str, Any]) -> None:
     """Write <name>.png and <name>.json to a folder, and print the numbers."""
     output.mkdir(parents=True, exist_ok=True)
-    figure.canvas.draw()
-    pixels = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")
-    pixels.quantize(200).save(output / f"{name}.png", optimize=True)  # a third of the bytes
+    save(output / f"{name}.png", figure)
     text = json.dumps(numbers, indent=2, default=lambda value: value.item())
     (output / f"{name}.json").write_text(text + "\n", encoding="utf-8")
     print(text)
+
+
+def save(path: Path, figure: Figure) -> None:
+    """Write a figure as a PNG of 200 colours, which takes a third of the bytes."""
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB").quantize(200).save(path, optimize=True)

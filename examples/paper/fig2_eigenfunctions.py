@@ -1,13 +1,14 @@
 """Eigenfunctions of a shape and of its locally scaled copy, in two metrics (Fig. 2, Fig. 3).
 
 The number is the mean |correlation| over the shape of its eigenfunctions 1 to 10 with those of the copy (1 to 15),
-carried back by the truth and paired one to one so that the correlations add up to most. An eigenfunction is only defined
-up to a rotation among those of the same eigenvalue, and where eigenvalues of the shape follow each other within 5 %, a
-small change of the surface does rotate them: `rotated` is the same number after the best rotation within each such
-group. `paired`, the number to compare, is without.
+carried back by the truth and paired one to one so that the correlations add up to most: `paired`. An eigenfunction is
+defined up to a rotation among those of the same eigenvalue, and where eigenvalues of the shape follow each other within
+5 %, a small change of the surface does rotate them: `rotated` is the number after the best rotation within such groups.
 """
 
 from __future__ import annotations
+
+from typing import Any
 
 import numpy as np
 from common import METRICS, copies, grid, options, picture, publish, shapes
@@ -40,8 +41,9 @@ def rotated(paired: Array, eigenvalues: Array) -> Array:
 
 
 def main() -> None:
-    settings = options(__doc__.splitlines()[0])
-    numbers, rows = {}, []
+    settings = options("Figs. 2 and 3")
+    numbers: dict[str, Any] = {}
+    rows: list[tuple[str, list[np.ndarray]]] = []
     for name, mesh, up in shapes(settings):
         pictures: dict[str, list[np.ndarray]] = {"": [], "copy": []}
         numbers[name] = {}
