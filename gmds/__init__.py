@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from gmds.solver import Solution as Solution
     from gmds.solver import solve as solve
     from gmds.status import Status as Status
+    from gmds.symmetry import self_symmetry as self_symmetry
     from gmds.tabulated import TabulatedDistance as TabulatedDistance
 
 # every public name, by the module it lives in
@@ -46,6 +47,7 @@ _NAMES = {
     "problem": ("Problem",),
     "solver": ("Solution", "solve"),
     "status": ("Status",),
+    "symmetry": ("self_symmetry",),
     "tabulated": ("TabulatedDistance",),
 }
 _SUBMODULES = ("benchmarking", "datasets", "errors", "initialization", "pictures", "report", "shapes")

@@ -16,6 +16,7 @@ from geodesics import SurfacePoints
 from gmds import __version__
 from gmds.candidates import Embedded
 from gmds.correspondence import Candidate, Correspondence, MatchStatus
+from gmds.surface import Surface
 
 Array = NDArray[np.float64]
 
@@ -62,10 +63,15 @@ def _original(embedded: Embedded) -> SurfacePoints:
     row = np.arange(source.mesh.n_vertices)
     if len(used) < len(row):
         row = used[cKDTree(source.mesh.vertices[used]).query(source.mesh.vertices)[1]]
-    face, weight = target.face_index[points.face[row]], points.barycentric[row]
-    corners, turned = target.original.faces[face], target.mesh.faces[points.face[row]]
+    return on_original(target, points[row])
+
+
+def on_original(surface: Surface, points: SurfacePoints) -> SurfacePoints:
+    """Points of a measured surface as points of the mesh that was measured."""
+    face, weight = surface.face_index[points.face], points.barycentric
+    corners, turned = surface.original.faces[face], surface.mesh.faces[points.face]
     swapped = (corners != turned).any(axis=1, keepdims=True)  # a turned face keeps its first corner
-    return SurfacePoints(target.original, face, np.where(swapped, weight[:, [0, 2, 1]], weight))
+    return SurfacePoints(surface.original, face, np.where(swapped, weight[:, [0, 2, 1]], weight))
 
 
 def _valid(embedded: Embedded) -> NDArray[np.bool_]:

@@ -1,0 +1,145 @@
+"""Maps of a surface to itself, other than the identity: proposed, embedded, registered, and told from one another."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gmds import initialization
+from gmds.candidates import Embedded, embed, finished
+from gmds.losses import Loss
+from gmds.pair import SurfacePair
+from gmds.proposals import Proposal, distinct, proposals
+from gmds.registration import Residuals
+from gmds.surface import Surface
+
+Array = NDArray[np.float64]
+
+MOST = 24  # self-maps of each kind, orientation-reversing or not, that are embedded
+ALWAYS = 3  # of the reversing ones, however unlikely
+LIKELY = 0.6  # log-likelihood, on the outlines, that the others may be short of the best
+CONVINCING = -8.0  # loss below which, on the outlines, more likely ones put nobody to shame: there all fit exactly
+STILL = (0.05, 0.09)  # mean distance in root areas below which a map is no more than the identity with something
+# small misplaced: a reversing one (the identity inside out), one that keeps orientation
+APART = 0.08  # the same between two symmetries
+DISTINCT = 0.03  # the same between two maps that are worth refining
+SPARE = 2.5  # times the elastic energy of the best map that the others may need, where it is more than
+FREE_ENERGY = 0.03  # which any may need
+ENERGY = 0.2  # elastic energy above which a self-map is no symmetry
+CURVATURE = 0.77  # correlation of mean curvature below which it is none
+STRESS = 0.2  # relative change of distances above which it is none
+SENSE = 0.5  # share of the area whose orientation a map must treat alike
+LEAST_FOLDED = 1e-3  # share of the area that is folded over at a vertex of any triangulation
+SAMPLES = 300
+
+
+@dataclass(frozen=True, eq=False)
+class SelfMap:
+    """A map of a surface to itself, embedded and registered; an orientation-reversing one goes to the mirror image."""
+
+    embedded: Embedded
+
+    @property
+    def positions(self) -> Array:
+        """Where the vertices go (n, 3), on the surface itself."""
+        return _unmirrored(self.embedded.points.positions, self.embedded.pair)
+
+    @property
+    def loss(self) -> float:
+        """Minus its log-likelihood up to a constant; of two, a map is the likelier the less of the surface it folds."""
+        evidence = self.embedded.evidence
+        return evidence.loss + float(np.log(max(1 - abs(evidence.orientation), LEAST_FOLDED)))
+
+    @property
+    def energy(self) -> float:
+        """Elastic energy of the deformation."""
+        return self.embedded.evidence.whole.energy
+
+    @property
+    def still(self) -> bool:
+        """Whether it is hardly more than the identity."""
+        moved = self._mean_distance(self.positions, self.embedded.pair.source.mesh.vertices)
+        return moved <= _still(self.embedded.pair)
+
+    @property
+    def twice(self) -> float:
+        """Mean distance in root areas from where the map, done twice, brings points back: 0 for an involution."""
+        again = self.embedded.points.interpolate(self.positions)
+        return self._mean_distance(again, self.embedded.pair.source.mesh.vertices)
+
+    @property
+    def plausible(self) -> bool:
+        """Whether it keeps lengths, distances and curvature, and does to orientation what it is meant to."""
+        evidence, reversing = self.embedded.evidence, self.embedded.pair.reflected
+        keeps = evidence.stress <= STRESS and evidence.whole.energy <= ENERGY and _curvature(evidence.whole) > CURVATURE
+        return keeps and (-evidence.orientation if reversing else evidence.orientation) > SENSE
+
+    def gap(self, other: SelfMap) -> float:
+        """Mean distance between the images of two self-maps, in root areas."""
+        return self._mean_distance(self.positions, other.positions)
+
+    def _mean_distance(self, x: Array, y: Array) -> float:
+        return float(self.embedded.pair.geometries[0].areas @ np.linalg.norm(x - y, axis=1))
+
+
+def self_maps(
+    surface: Surface, mirrored: Surface, loss: Loss, progress: Callable[[str, float], None]
+) -> Iterator[SelfMap]:
+    """Self-maps that may be symmetries, most likely first, no two alike and none the identity.
+
+    An orientation-reversing self-map is a map to the mirror image that preserves orientation. Proposals are those of
+    `match`; the likely ones are embedded, and the best of these refined.
+    """
+    pairs = SurfacePair(surface, mirrored, None, True), SurfacePair(surface, surface)
+    kinds: list[list[Proposal]] = []
+    for number, pair in enumerate(pairs):
+        progress("proposing", 0.05 + 0.25 * number)
+        found = proposals(pair, list(zip(pair.source.views, pair.target.views, strict=True)), initialization.ALL)
+        kinds.append(distinct([p for p in found if _moves(p, pair) > _still(pair)], pair.outlines[0], MOST))
+    limit = max(min((p.loss for kind in kinds for p in kind), default=0.0), CONVINCING) + LIKELY
+    chosen = [(pairs[0], p) for i, p in enumerate(kinds[0]) if i < ALWAYS or p.loss < limit]
+    chosen += [(pairs[1], p) for p in kinds[1] if p.loss < limit]
+    begun: list[SelfMap] = []
+    for i, (pair, proposal) in enumerate(chosen):
+        progress("embedding", 0.55 + 0.3 * i / len(chosen))
+        begun.append(SelfMap(embed(pair, proposal, loss, min(SAMPLES, len(surface.regular.usable)))))
+    best = likely(begun, DISTINCT)
+    for i, found_map in enumerate(best):
+        progress("refining", 0.85 + 0.15 * i / len(best))
+        yield SelfMap(finished(found_map.embedded))
+
+
+def likely(maps: list[SelfMap], apart: float = APART) -> list[SelfMap]:
+    """Those that need not much more energy than the most likely, most likely first, without repetitions.
+
+    A map that swaps one pair of legs and not the other costs a tear; where it is the best there is, it comes alone.
+    """
+    kept: list[SelfMap] = []
+    for found in sorted((m for m in maps if not m.still), key=lambda m: m.loss):
+        allowed = not kept or found.energy <= max(SPARE * kept[0].energy, FREE_ENERGY)
+        if allowed and all(found.gap(other) > apart for other in kept):
+            kept.append(found)
+    return kept
+
+
+def _curvature(residuals: Residuals) -> float:
+    return min(residuals.curvature, residuals.curvature_back)
+
+
+def _moves(proposal: Proposal, pair: SurfacePair) -> float:
+    """Mean distance over which a proposal moves the outline."""
+    outline = pair.outlines[0]
+    gaps = np.linalg.norm(_unmirrored(proposal.registered.y, pair) - outline.mesh.vertices, axis=1)
+    return float(outline.areas @ gaps)
+
+
+def _still(pair: SurfacePair) -> float:
+    return STILL[0] if pair.reflected else STILL[1]
+
+
+def _unmirrored(places: Array, pair: SurfacePair) -> Array:
+    """Positions (n, 3) on the target of a pair as positions on the source, of which it is a copy or mirror image."""
+    return places * (-1.0, 1.0, 1.0) if pair.reflected else places
