@@ -69,7 +69,7 @@ def main() -> None:
         rows += [(f"{name} {panel}".strip(), images) for panel, images in pictures.items()]
     columns = [f"{metric} $\\phi_{{{i + 1}}}$" for metric in METRICS for i in range(SHOWN)]
     title = "Eigenfunctions of shapes, and their partners on locally scaled, remeshed copies"
-    publish(settings.output, "fig2_eigenfunctions", grid(rows, columns, title), numbers)
+    publish(settings.output, "fig2_eigenfunctions", grid(rows, columns, title, size=0.75), numbers)
 
 
 if __name__ == "__main__":

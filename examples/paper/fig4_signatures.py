@@ -27,7 +27,7 @@ def curves(drawn: dict[tuple[str, str], tuple[Array, Array]]) -> Figure:
     """Scaled signatures at three points: circles on the shape, plus signs on its copy."""
     names = list(dict.fromkeys(name for name, _ in drawn))
     figure = Figure(figsize=(8, 2.6 * len(names) + 0.4), dpi=110, layout="constrained")
-    axes = figure.subplots(len(names), 2, squeeze=False, sharex=True)
+    axes = figure.subplots(len(names), 2, squeeze=False, sharex=True, sharey="row")
     for (name, metric), (old, new) in drawn.items():
         axis = axes[names.index(name), list(METRICS).index(metric)]
         for a, b, colour in zip(old, new, COLOURS, strict=True):
