@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     from gmds.matching import match as match
     from gmds.multiresolution import solve_multiresolution as solve_multiresolution
     from gmds.problem import Problem as Problem
+    from gmds.retrieval import BagOfFeatures as BagOfFeatures
+    from gmds.retrieval import retrieve as retrieve
     from gmds.solver import Solution as Solution
     from gmds.solver import solve as solve
     from gmds.status import Status as Status
@@ -45,6 +47,7 @@ _NAMES = {
     "matching": ("match",),
     "multiresolution": ("solve_multiresolution",),
     "problem": ("Problem",),
+    "retrieval": ("BagOfFeatures", "retrieve"),
     "solver": ("Solution", "solve"),
     "status": ("Status",),
     "symmetry": ("self_symmetry",),
