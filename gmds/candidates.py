@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geodesics import DiffusionDistance, Distance, SurfacePoints
-from gmds.choice import Evidence, evidence, outline_residuals
+from gmds.choice import Evidence, evidence
 from gmds.extension import extend
 from gmds.losses import Loss
 from gmds.pair import SurfacePair
@@ -71,7 +71,7 @@ def embed(
         views, distances = given
         points, solution = placed(pair, upsampled(*views, images), views, loss, count, distances)
         deformation = as_it_is(*pair.geometries, points.positions, growing=True, partial=True)
-    weighed = evidence(pair, views, points, proposal.registered.residuals, deformation.residuals)
+    weighed = evidence(pair, views, points, proposal.residuals, deformation.residuals)
     return Embedded(pair, points, views, solution, deformation, weighed)
 
 
@@ -113,7 +113,7 @@ def finished(best: Embedded) -> Embedded:
         if not isometric and trial.residuals.energy >= (1 - GAIN) * now.residuals.energy:
             break
         now = trial
-    weighed = evidence(pair, best.views, now.points, best.evidence.outline, now.residuals)
+    weighed = evidence(pair, best.views, now.points, best.evidence.outlines, now.residuals)
     return replace(best, points=now.points, deformation=now, evidence=weighed)
 
 
@@ -161,5 +161,6 @@ def mirrored(best: Embedded) -> Embedded | None:
     else:
         return None
     deformation = as_it_is(*pair.geometries, points.positions, growing=True, partial=True)
-    weighed = evidence(pair, best.views, points, outline_residuals(pair, points), deformation.residuals)
+    outlines = Proposal.of(pair, points.positions[pair.outlines[0].origin]).residuals
+    weighed = evidence(pair, best.views, points, outlines, deformation.residuals)
     return replace(best, points=points, deformation=deformation, evidence=weighed)

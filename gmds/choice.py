@@ -11,7 +11,7 @@ from geodesics import SurfacePoints
 from geodesics.euclidean import euclidean_distances
 from gmds.orientation import orientation_score
 from gmds.pair import SurfacePair
-from gmds.registration import BEGIN, COARSE, Residuals, register
+from gmds.registration import Residuals
 from gmds.surface import View
 
 Array = NDArray[np.float64]
@@ -27,12 +27,14 @@ class Evidence:
     """What speaks for a map.
 
     `outline`: what is left when the outline of the source is deformed as the map says, its parts keeping their sizes;
-    `whole`: when all of it is, and parts may grow; `stress`: mean |d_S - d_Q| between samples over mean d_S;
-    `orientation`: signed share of the area that keeps it; `closed`: whether neither surface has a boundary;
-    `landmark_error`: mean distance of the landmarks, if any, from where they belong, in root areas.
+    `outline_back`: when that of the target is, the other way; `whole`: when all of the source is, and parts may grow;
+    `stress`: mean |d_S - d_Q| between samples over mean d_S; `orientation`: signed share of the area that keeps it;
+    `closed`: whether neither surface has a boundary; `landmark_error`: mean distance of the landmarks, if any, from
+    where they belong, in root areas.
     """
 
     outline: Residuals
+    outline_back: Residuals
     whole: Residuals
     stress: float
     orientation: float
@@ -40,19 +42,29 @@ class Evidence:
     landmark_error: float = 0.0
 
     @property
-    def loss(self) -> float:
-        """Minus the log-likelihood up to a constant: both deformations, and the landmarks.
+    def outlines(self) -> tuple[Residuals, Residuals]:
+        """Both ways."""
+        return self.outline, self.outline_back
 
-        Where there is a boundary, and parts may be missing, parts that grow could hide it: there the outline decides.
+    @property
+    def loss(self) -> float:
+        """Minus the log-likelihood up to a constant: the deformations, and the landmarks.
+
+        Where there is a boundary, and parts may be missing, parts that grow could hide it: there the outlines decide.
         """
-        whole = self.whole.loss if self.closed else self.outline.loss
-        return self.outline.loss + whole + float(np.log(1 + self.landmark_error / HIT))
+        outlines = sum(residuals.loss for residuals in self.outlines)
+        whole = self.whole.loss if self.closed else 0.0
+        return outlines + whole + float(np.log(1 + self.landmark_error / HIT))
 
 
 def evidence(
-    pair: SurfacePair, views: tuple[View, View], points: SurfacePoints, outline: Residuals, whole: Residuals
+    pair: SurfacePair,
+    views: tuple[View, View],
+    points: SurfacePoints,
+    outlines: tuple[Residuals, Residuals],
+    whole: Residuals,
 ) -> Evidence:
-    """What speaks for a map to `points` (n,) of the target, with distances measured in `views`; two parts are known."""
+    """What speaks for a map to `points` (n,) of the target, with distances measured in `views`; residuals are known."""
     ours, theirs = (view.distance(min(FUNCTIONS, view.functions.shape[1])).embedding for view in views)
     samples = views[0].samples(SAMPLES)
     here, there = (euclidean_distances(rows, rows) for rows in (ours[samples], points[samples].interpolate(theirs)))
@@ -63,16 +75,11 @@ def evidence(
         place = pair.target.mesh.vertices[pair.known[1]]
         miss = float(np.linalg.norm(points[pair.known[0]].positions - place, axis=1).mean())
     return Evidence(
-        outline=outline,
+        outline=outlines[0],
+        outline_back=outlines[1],
         whole=whole,
         stress=float(np.abs(here - there).mean() / here.mean()),
         orientation=-score if pair.reflected else score,
         closed=not any(geometry.boundary.any() for geometry in pair.geometries),
         landmark_error=miss,
     )
-
-
-def outline_residuals(pair: SurfacePair, points: SurfacePoints) -> Residuals:
-    """What is left when the outline of the source is deformed from where a map to `points` (n,) sends it."""
-    outline, target = pair.outlines
-    return register(outline, target, points.positions[outline.origin], (*BEGIN, *COARSE), growing=False).residuals

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gmds.geometry import Geometry
 from gmds.hypotheses import hypotheses
 from gmds.pair import SurfacePair
-from gmds.registration import BEGIN, COARSE, Registered, register
+from gmds.registration import BEGIN, COARSE, Registered, Residuals, register, returning
 from gmds.surface import View
 from gmds.upsampling import SampledPair
 
@@ -26,14 +26,31 @@ APART = 0.05  # root mean square gap, in root areas, below which two maps are on
 
 @dataclass(frozen=True, eq=False)
 class Proposal:
-    """A map of the outline of the source, registered to the outline of the target."""
+    """A map of the outline of the source, `registered` to the outline of the target, and the target `back` to it."""
 
     registered: Registered
+    back: Registered
+
+    @classmethod
+    def of(cls, pair: SurfacePair, places: Array) -> Proposal:
+        """The map that sends the vertices of the source's outline to `places` (n, 3)."""
+        source, target = pair.outlines
+        there = register(source, target, places, (*BEGIN, *COARSE), growing=False)
+        begun = returning(source, target, there.y)
+        return cls(there, register(target, source, begun, (*BEGIN, *COARSE), growing=False))
+
+    @property
+    def residuals(self) -> tuple[Residuals, Residuals]:
+        """What is left of both deformations."""
+        return self.registered.residuals, self.back.residuals
 
     @property
     def loss(self) -> float:
-        """Minus the log-likelihood of the map up to a constant."""
-        return self.registered.residuals.loss
+        """Minus the log-likelihood of the map up to a constant.
+
+        Both ways: half a body can be bent onto a whole one in many ways, the whole on the half in few.
+        """
+        return sum(residuals.loss for residuals in self.residuals)
 
 
 def proposals(pair: SurfacePair, views: Sequence[tuple[View, View]], starts: Sequence[Start]) -> Iterator[Proposal]:
@@ -47,7 +64,7 @@ def proposals(pair: SurfacePair, views: Sequence[tuple[View, View]], starts: Seq
     places = [target.mesh.vertices[images] for images in rough_maps(pair, views, starts)]
     first = [register(source, target, place, BEGIN, growing=False).residuals.loss for place in places]
     for i in np.argsort(first, kind="stable")[: max(LEAST_KEPT, len(places) // 3)]:
-        yield Proposal(register(source, target, places[i], (*BEGIN, *COARSE), growing=False))
+        yield Proposal.of(pair, places[i])
 
 
 def rough_maps(pair: SurfacePair, views: Sequence[tuple[View, View]], starts: Sequence[Start]) -> list[Index]:

@@ -144,14 +144,19 @@ def both_ways(
     The source settles again from the middle between where it lay and where the deformed target says it belongs: what
     slides one way in the one slides the other way in the other. `views` as in `settled`.
     """
-    features = source.moved_features(found.y)
-    begun = source.mesh.vertices[source.usable[cKDTree(features[source.usable]).query(target.features)[1]]]
+    begun = returning(source, target, found.y)
     opposite = None if views is None else (views[1], views[0])
     back = register(target, source, begun, BACK, growing=True, partial=True, views=opposite)
     rows = target.moved_features(back.y)
     near = target.usable[cKDTree(rows[target.usable]).query(source.features)[1]]
     there = target.closest(source.features, rows, near).positions
     return register(source, target, (found.y + there) / 2, AGAIN, growing=True, partial=True, views=views)
+
+
+def returning(source: Geometry, target: Geometry, y: Array) -> Array:
+    """Where the target's vertices go (q, 3) on a source that was deformed to y (n, 3): the way back."""
+    features = source.moved_features(y)[source.usable]
+    return source.mesh.vertices[source.usable[cKDTree(features).query(target.features)[1]]]
 
 
 def _root_mean_square(values: Array, weights: Array) -> float:

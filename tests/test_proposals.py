@@ -127,9 +127,8 @@ def synthetic() -> tuple[Geometry, list[Proposal]]:
     for k in range(9):
         y = base.y + np.array([0.5 * k * APART * 1.001, 0, 0])
         points = SurfacePoints.closest(geometry.mesh, y)
-        made.append(
-            Proposal(replace(base, y=y, points=points, residuals=replace(base.residuals, misfit_back=0.01 + k)))
-        )
+        worse = replace(base, y=y, points=points, residuals=replace(base.residuals, misfit_back=0.01 + k))
+        made.append(Proposal(worse, base))
     return geometry, made
 
 
