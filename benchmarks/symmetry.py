@@ -3,7 +3,7 @@
     GMDS_DATA=... python benchmarks/symmetry.py [--shapes tosca_hires/cat0,faust_5k/tr_reg_000] [--workers 2]
 
 Every mesh is turned and resized at random; mean geodesic error x100 of the first symmetry found, on the protocol's 125
-truth points. In a rescaled copy one ear, arm or leg is larger or smaller; it keeps its faces, so the truth carries over.
+truth points. In a rescaled copy one ear, arm or leg is larger or smaller; its faces, and so the truth, stay the same.
 Writes results/symmetry.csv row by row, does not do again what it holds for this version, and makes symmetry.md of it.
 """
 

@@ -20,8 +20,8 @@ Array = NDArray[np.float64]
 
 MOST = 24  # self-maps of each kind, orientation-reversing or not, that are embedded
 ALWAYS = 3  # of the reversing ones, however unlikely
-LIKELY = 0.6  # log-likelihood, on the outlines, that the others may be short of the best
-CONVINCING = -8.0  # loss below which, on the outlines, more likely ones put nobody to shame: there all fit exactly
+LIKELY = 1.2  # log-likelihood, on the outlines, that the others may be short of the best
+CONVINCING = -16.0  # loss below which, on the outlines, more likely ones put nobody to shame: there all fit exactly
 STILL = (0.05, 0.09)  # mean distance in root areas below which a map is no more than the identity with something
 # small misplaced: a reversing one (the identity inside out), one that keeps orientation
 APART = 0.08  # the same between two symmetries
