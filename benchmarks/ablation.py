@@ -32,6 +32,7 @@ from gmds.choice import Evidence
 from gmds.cli.choices import chosen_distance
 from gmds.correspondence import Correspondence
 from gmds.pair import SurfacePair
+from gmds.proposals import Proposal
 from gmds.registration import Registered, registered
 from gmds.surface import EIGENFUNCTIONS, SMOOTHING
 
@@ -81,6 +82,11 @@ def same(best: Embedded) -> Embedded:
     return best
 
 
+def one_way(found: Evidence) -> float:
+    """The loss without the deformation of the target's outline."""
+    return found.outline.loss + (found.whole.loss if found.closed else found.outline.loss)
+
+
 ARGUMENTS: dict[str, Matcher] = {
     "loss Huber": partial(gmds.match, loss=gmds.Huber()),
     "loss Minimax": partial(gmds.match, loss=gmds.Minimax()),
@@ -98,6 +104,9 @@ INSIDE: dict[str, Matcher] = {
     "starts from eigenfunction signs only": changed({gmds.initialization: {"ALL": gmds.initialization.ALL[:1]}}),
     "starts from extremities only": changed({gmds.initialization: {"ALL": gmds.initialization.ALL[1:]}}),
     "starts in the metric of space only": changed({gmds.surface: {"EXPONENTS": ()}}),
+    "weighed one way": changed(
+        {Proposal: {"loss": property(lambda found: found.residuals[0].loss)}, Evidence: {"loss": property(one_way)}}
+    ),
     "choice by stress": changed({Evidence: {"loss": property(lambda found: found.stress)}}),
     "choice by the outline alone": changed({Evidence: {"loss": property(lambda found: found.outline.loss)}}),
     "no embedding by solve": changed({gmds.candidates: {"ITERATIONS": 0}}),
