@@ -25,6 +25,7 @@ from gmds.views import broadside
 Picture = np.ndarray
 METRICS = {"regular": embedded, "invariant": scale_invariant}
 Z_UP = (0, 0, 1)
+LARGE = 290_000  # bytes
 
 
 def options(about: str, *extra: tuple[str, Mapping[str, Any]]) -> argparse.Namespace:
@@ -110,7 +111,10 @@ def publish(output: Path, name: str, figure: Figure, numbers: Mapping[str, Any])
 
 
 def save(path: Path, figure: Figure) -> None:
-    """Write a figure as a PNG of 200 colours, which takes a third of the bytes."""
+    """Write a figure as a PNG; of 200 colours when it would be large."""
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
-    Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB").quantize(200).save(path, optimize=True)
+    image = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
+    image.save(path, optimize=True)
+    if path.stat().st_size > LARGE:
+        image.quantize(200).save(path, optimize=True)

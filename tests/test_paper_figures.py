@@ -1,0 +1,68 @@
+"""Every figure of the paper is made on built-in shapes, and its numbers keep the promises of the README."""
+
+from __future__ import annotations
+
+import json
+import runpy
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytest.importorskip("matplotlib")
+SCRIPTS = Path(__file__).parents[1] / "examples" / "paper"
+
+
+@pytest.fixture
+def numbers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """Run a script on small shapes; the numbers it wrote."""
+    monkeypatch.syspath_prepend(str(SCRIPTS))
+
+    def run(name: str) -> dict[str, Any]:
+        monkeypatch.setattr(sys, "argv", [name, "--small", "-o", str(tmp_path)])
+        runpy.run_path(str(SCRIPTS / f"{name}.py"), run_name="__main__")
+        assert (tmp_path / f"{name}.png").stat().st_size > 5000
+        return json.loads((tmp_path / f"{name}.json").read_text(encoding="utf-8"))
+
+    return run
+
+
+def test_eigenfunctions_survive_local_scales(numbers) -> None:
+    found = numbers("fig2_eigenfunctions")["animal"]
+    for copy, least in (("same triangles", 0.95), ("remeshed", 0.85)):
+        regular, invariant = found[copy]["regular"], found[copy]["invariant"]
+        assert invariant["paired"] >= least and invariant["paired"] > regular["paired"] + 0.1
+        assert invariant["rotated"] >= invariant["paired"] - 1e-3
+
+
+def test_signatures_survive_local_scales(numbers) -> None:
+    found = numbers("fig4_signatures")["animal"]
+    assert found["same triangles"]["ratio"]["scaled"] <= 0.25
+    assert found["remeshed"]["ratio"]["scaled"] <= 0.33  # a thousand vertices are few for curvature; 0.13 on 4,000
+
+
+def test_voronoi_cells_survive_local_scales(numbers) -> None:
+    found = numbers("fig6_voronoi")["animal"]
+    assert len(found) == 2
+    for copy in found.values():
+        assert copy["invariant"]["carried"] >= 0.85
+        assert all(copy["invariant"][samples] > copy["regular"][samples] for samples in ("own", "carried"))
+
+
+def test_gmds_in_the_invariant_metric(numbers) -> None:
+    found = numbers("fig7_gmds")["animal"]
+    assert found["match"]["error_x100"] <= 2.5
+    assert found["invariant"]["error_x100"] < found["regular"]["error_x100"]
+
+
+def test_metrics_keep_what_their_definition_promises(numbers) -> None:
+    found = numbers("section2_arc_lengths")
+    assert max(found["equi_affine"]["egg, unimodular map"], found["embedded"]["vase, bent"]) <= 1
+    assert max(found["affine"]["egg, unimodular map"], found["affine"]["egg, affine map"]) <= 5
+    for metric, change in found.items():
+        assert (change["vase, twice as big"] < 0.01) == (metric not in ("embedded", "equi_affine"))
+    both = {metric for metric in found if max(found[metric]["vase, twice as big"], found[metric]["vase, bent"]) < 0.5}
+    assert both == {"scale_invariant", "gaussian_curvature_length"}  # of the scale-invariant ones, those of |K| alone
+    scaled = {metric: change["animal, limbs scaled"] for metric, change in found.items()}
+    assert scaled["scale_invariant"] < scaled["min_curvature"] < scaled["embedded"]
