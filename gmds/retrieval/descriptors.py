@@ -23,7 +23,8 @@ from gmds.retrieval.mending import mended
 Array = NDArray[np.float64]
 
 EIGENPAIRS = 120
-HEAT_TIMES = np.geomspace(0.005, 0.2, 12)  # in units of the area
+# chosen on half of the classes of examples/paper/table1_retrieval.py; times in units of the area
+HEAT_TIMES = np.geomspace(0.002, 0.1, 12)
 LOG_TIMES = np.geomspace(0.001, 1, 64)
 FREQUENCIES = 6
 
@@ -74,4 +75,5 @@ REGULAR_FREQUENCIES = Descriptor("SI-HKS", embedded, heat_frequencies)
 INVARIANT = Descriptor("invariant HKS", scale_invariant, log_heat)
 INVARIANT_FREQUENCIES = Descriptor("invariant SI-HKS", scale_invariant, heat_frequencies)
 
-DEFAULT = (INVARIANT, INVARIANT_FREQUENCIES)
+# what is regular tells like shapes apart, what is invariant finds them after their parts have grown
+DEFAULT = (REGULAR, INVARIANT)
