@@ -12,12 +12,13 @@ from gmds import initialization
 from gmds.candidates import Embedded, embed, finished
 from gmds.losses import Loss
 from gmds.pair import SurfacePair
-from gmds.proposals import Proposal, distinct, proposals
-from gmds.registration import Residuals
+from gmds.proposals import Proposal, distinct, rough_maps
+from gmds.registration import BEGIN, Registered, Residuals, register
 from gmds.surface import Surface
 
 Array = NDArray[np.float64]
 
+TRIED = 12  # rough maps of each kind that are registered to the end, and more where they fit exactly
 MOST = 24  # self-maps of each kind, orientation-reversing or not, that are embedded
 ALWAYS = 3  # of the reversing ones, however unlikely
 LIKELY = 1.2  # log-likelihood, on the outlines, that the others may be short of the best
@@ -28,7 +29,7 @@ APART = 0.08  # the same between two symmetries
 DISTINCT = 0.03  # the same between two maps that are worth refining
 SPARE = 2.5  # times the elastic energy of the best map that the others may need, where it is more than
 FREE_ENERGY = 0.03  # which any may need
-ENERGY = 0.2  # elastic energy above which a self-map is no symmetry
+ENERGY = 0.5  # elastic energy above which a self-map is no symmetry
 CURVATURE = 0.77  # correlation of mean curvature below which it is none
 STRESS = 0.2  # relative change of distances above which it is none
 SENSE = 0.5  # share of the area whose orientation a map must treat alike
@@ -97,8 +98,8 @@ def self_maps(
     kinds: list[list[Proposal]] = []
     for number, pair in enumerate(pairs):
         progress("proposing", 0.05 + 0.25 * number)
-        found = proposals(pair, list(zip(pair.source.views, pair.target.views, strict=True)), initialization.ALL)
-        kinds.append(distinct([p for p in found if _moves(p, pair) > _still(pair)], pair.outlines[0], MOST))
+        found = [p for p in proposed(pair) if _moves(p.registered, pair) > _still(pair)]
+        kinds.append(distinct(found, pair.outlines[0], MOST))
     limit = max(min((p.loss for kind in kinds for p in kind), default=0.0), CONVINCING) + LIKELY
     chosen = [(pairs[0], p) for i, p in enumerate(kinds[0]) if i < ALWAYS or p.loss < limit]
     chosen += [(pairs[1], p) for p in kinds[1] if p.loss < limit]
@@ -110,6 +111,21 @@ def self_maps(
     for i, found_map in enumerate(best):
         progress("refining", 0.85 + 0.15 * i / len(best))
         yield SelfMap(finished(found_map.embedded))
+
+
+def proposed(pair: SurfacePair) -> list[Proposal]:
+    """Proposals from the rough maps of `match` that are neither alike nor near the identity: the likeliest of them."""
+    source, target = pair.outlines
+    views = list(zip(pair.source.views, pair.target.views, strict=True))
+    places = [target.mesh.vertices[images] for images in rough_maps(pair, views, initialization.ALL)]
+    begun = [register(source, target, place, BEGIN, growing=False) for place in places]
+    kept: list[int] = []
+    for i in np.argsort([found.residuals.loss for found in begun], kind="stable"):
+        new = all(source.areas @ np.linalg.norm(begun[i].y - begun[j].y, axis=1) > DISTINCT for j in kept)
+        wanted = len(kept) < TRIED or begun[i].residuals.loss < CONVINCING / 2
+        if new and wanted and _moves(begun[i], pair) > _still(pair):
+            kept.append(int(i))
+    return [Proposal.of(pair, places[i]) for i in kept]
 
 
 def likely(maps: list[SelfMap], apart: float = APART) -> list[SelfMap]:
@@ -129,10 +145,10 @@ def _curvature(residuals: Residuals) -> float:
     return min(residuals.curvature, residuals.curvature_back)
 
 
-def _moves(proposal: Proposal, pair: SurfacePair) -> float:
-    """Mean distance over which a proposal moves the outline."""
+def _moves(found: Registered, pair: SurfacePair) -> float:
+    """Mean distance over which a registration moves the outline."""
     outline = pair.outlines[0]
-    gaps = np.linalg.norm(_unmirrored(proposal.registered.y, pair) - outline.mesh.vertices, axis=1)
+    gaps = np.linalg.norm(_unmirrored(found.y, pair) - outline.mesh.vertices, axis=1)
     return float(outline.areas @ gaps)
 
 
