@@ -36,7 +36,9 @@ class Item:
         return replace(self, mesh=None)
 
 
-def collection(classes: dict[str, Sequence[Mesh]], distractors: dict[str, Mesh]) -> Iterator[Item]:
+def collection(
+    classes: dict[str, Sequence[Mesh]], distractors: dict[str, Mesh], *, strengths: Sequence[int] = STRENGTHS
+) -> Iterator[Item]:
     """All shapes: the first of each class as it is, its other poses, the first one changed, and the distractors.
 
     The other poses of a class are its isometries: sorted by `pose_change`, the first fifth has strength 1 and so on.
@@ -48,7 +50,7 @@ def collection(classes: dict[str, Sequence[Mesh]], distractors: dict[str, Mesh])
         for rank, mesh in enumerate(poses):
             yield Item(label, "isometry", 1 + 5 * rank // len(poses), mesh, genuine=True)
         for kind in KINDS:
-            for strength in () if poses and kind == "isometry" else STRENGTHS:
+            for strength in () if poses and kind == "isometry" else strengths:
                 mesh = largest_piece(deformed(null, kind, strength, rng=seed)[0])
                 yield Item(label, kind, strength, mesh)
     for name, mesh in distractors.items():
