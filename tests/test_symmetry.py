@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import functools
 import json
+import runpy
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -11,14 +13,12 @@ import numpy as np
 import pytest
 import shapes
 from click.testing import CliRunner
-from matched import animal, bumpy
-from numpy.typing import NDArray
+from matched import bumpy
 
 import gmds
 from geodesics import Mesh, SurfacePoints, write_mesh
 from gmds.cli import main
 from gmds.correspondence import Correspondence, MatchStatus
-from gmds.deformations import local_scaling
 from gmds.errors import TooFewVertices
 
 
@@ -69,25 +69,19 @@ def test_a_large_mesh_is_solved_on_a_copy() -> None:
     assert fractions == sorted(fractions) and ticks[0] == ("measuring", 0.0) and ticks[-1] == ("done", 1.0)
 
 
-def left_right(mesh: Mesh) -> SurfacePoints:
-    """The true symmetry of the built-in animal, whose left is at positive y."""
-    return SurfacePoints.closest(mesh, mesh.vertices * (1, -1, 1))
-
-
-def test_an_animal_is_symmetric_with_one_ear_twice_as_big() -> None:
-    plain = animal()
-    truth, field = left_right(plain), one_ear(plain)
-    mesh, _ = local_scaling(plain, np.log(2) * field)
-    best = gmds.self_symmetry(mesh)[0]
-    assert best.meta["symmetry"]["reversing"] and best.meta["symmetry"]["orientation"] < -0.8
-    assert 100 * gmds.geodesic_error(best, SurfacePoints(mesh, truth.face, truth.barycentric)).mean() < 4
-
-
-def one_ear(mesh: Mesh) -> NDArray[np.float64]:
-    """1 at the tip of the left ear, 0 away from it."""
-    tip = np.argmax(mesh.vertices @ (0, 1, 1))
-    distance = np.linalg.norm(mesh.vertices - mesh.vertices[tip], axis=1)
-    return np.asarray(np.clip(1.5 - distance / 0.3, 0, 1), dtype=np.float64)
+def test_the_animal_of_the_paper_is_symmetric_with_one_part_twice_as_big_too(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("matplotlib")
+    scripts = Path(__file__).parents[1] / "examples" / "paper"
+    monkeypatch.syspath_prepend(str(scripts))
+    monkeypatch.setattr(sys, "argv", ["symmetry", "--small", "-o", str(tmp_path)])
+    runpy.run_path(str(scripts / "symmetry.py"), run_name="__main__")
+    found = json.loads((tmp_path / "symmetry.json").read_text(encoding="utf-8"))["animal"]
+    assert found["plain"]["error_x100"] < 2.5 and found["rescaled"]["error_x100"] < 4
+    for one in found.values():
+        assert one["reversing"] and one["orientation"] < -0.8 and one["twice"] < 0.03
+    assert (tmp_path / "symmetry.png").stat().st_size > 5000
 
 
 def test_an_asymmetric_surface_has_no_good_symmetry() -> None:
