@@ -53,7 +53,7 @@ def test_voronoi_cells_survive_local_scales(numbers) -> None:
 def test_gmds_in_the_invariant_metric(numbers) -> None:
     found = numbers("fig7_gmds")["animal"]
     assert found["match"]["error_x100"] <= 2.5
-    assert found["match"]["error_x100"] < 0.5 * min(found["regular"]["error_x100"], found["invariant"]["error_x100"])
+    assert found["match"]["error_x100"] < 0.5 * found["invariant"]["error_x100"] < 15  # 40 and more at random
 
 
 def test_metrics_keep_what_their_definition_promises(numbers) -> None:

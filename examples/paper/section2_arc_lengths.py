@@ -99,7 +99,7 @@ def main() -> None:
         grown = embedded(mesh).mass * 4 * np.pi / mesh.area
         density = [np.log10(measure(mesh).mass / grown) for measure in (scale_invariant, min_curvature)]
         rows.append((name, [picture(mesh, values, Z_UP, (0, 2.5), like=animal) for values in density]))
-    title = "Where area grows in the metric: from as on a sphere (dark) to 300 times that"
+    title = "Growth of area in two metrics,\nfrom 1 (blue) to 300 (yellow)"
     save(settings.output / "section7_min_curvature.png", grid(rows, ["$|K| g$", "$\\kappa_{min}^2 g$"], title))
 
 
