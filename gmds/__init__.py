@@ -28,8 +28,11 @@ if TYPE_CHECKING:
     from gmds.losses import Minimax as Minimax
     from gmds.losses import Power as Power
     from gmds.matching import match as match
+    from gmds.morphometry import dissimilarity as dissimilarity
     from gmds.multiresolution import solve_multiresolution as solve_multiresolution
     from gmds.problem import Problem as Problem
+    from gmds.profiles import distance_profile as distance_profile
+    from gmds.profiles import least_distortion as least_distortion
     from gmds.retrieval import BagOfFeatures as BagOfFeatures
     from gmds.retrieval import retrieve as retrieve
     from gmds.solver import Solution as Solution
@@ -45,8 +48,10 @@ _NAMES = {
     "evaluation": ("ErrorSummary", "error_curve", "geodesic_error", "summary"),
     "losses": ("Huber", "LeastSquares", "Minimax", "Power"),
     "matching": ("match",),
+    "morphometry": ("dissimilarity",),
     "multiresolution": ("solve_multiresolution",),
     "problem": ("Problem",),
+    "profiles": ("distance_profile", "least_distortion"),
     "retrieval": ("BagOfFeatures", "retrieve"),
     "solver": ("Solution", "solve"),
     "status": ("Status",),

@@ -8,5 +8,16 @@ main = LazyGroup(
     "gmds",
     help="Find which point of one surface is which point of another, whatever their poses and sizes.",
     commands_in="gmds.cli",
-    command_names=("demo", "match", "evaluate", "symmetry", "deform", "retrieve", "check", "repair", "benchmark"),
+    command_names=(
+        "demo",
+        "match",
+        "evaluate",
+        "compare",
+        "symmetry",
+        "deform",
+        "retrieve",
+        "check",
+        "repair",
+        "benchmark",
+    ),
 )

@@ -1,0 +1,101 @@
+"""A collection of shapes in one figure: tree, matrix in the order of its leaves, and map in the plane."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import scipy.cluster.hierarchy as hierarchy
+from numpy.typing import NDArray
+
+from geodesics.errors import MissingExtra
+from gmds.colours import label_colours
+from gmds.comparison import families, leaf_order, plane_map, tree
+
+Array = NDArray[np.float64]
+
+LABELLED = 60  # with more shapes, the map names each family once
+
+
+def comparison_figure(names: Sequence[str], matrix: Array, pictures: Sequence[Array | None] | None = None) -> Any:
+    """A matplotlib figure of the `tree`, the matrix (k, k) and the `plane_map` of the shapes with these names.
+
+    Shapes of one family (names that differ in their number only) have one colour. `pictures`, images of the shapes,
+    stand on the map. Raises `MissingExtra` without the extra `viz`.
+    """
+    try:
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+    except ImportError as error:
+        raise MissingExtra("a picture needs matplotlib; install it with: pip install 'gmds[viz]'") from error
+
+    family = families(names)
+    number = np.unique(family, return_inverse=True)[1]
+    colours = label_colours(number)
+    linkage = tree(matrix)
+    order = leaf_order(linkage)
+    height = float(np.clip(1.5 + 0.13 * len(names), 5, 24))
+    family, names = ([name.replace("$", r"\$") for name in those] for those in (family, names))  # no formulas
+    figure = Figure(figsize=(8 + height, height), dpi=110, layout="constrained")
+    FigureCanvasAgg(figure)
+    left, middle, right = figure.subplots(1, 3, width_ratios=(3.4, height, 1.05 * height))
+    size = float(np.clip(62 * (height - 1) / len(names), 3, 9))
+    _draw_tree(left, linkage, [names[i] for i in order], colours[order], size)
+    shown = middle.imshow(matrix[np.ix_(order, order)], cmap="cividis", aspect="auto", interpolation="nearest")
+    middle.set_title("dissimilarity", fontsize=10)
+    middle.set_xticks([])
+    middle.set_yticks([])
+    figure.colorbar(shown, ax=middle, fraction=0.04, pad=0.02)
+    _draw_map(right, names, family, plane_map(matrix), colours, pictures)
+    return figure
+
+
+def _draw_tree(axis: Any, linkage: Array, names: Sequence[str], colours: Array, size: float) -> None:
+    """The tree with its leaves from top to bottom, named in their colours, beside the rows of the matrix."""
+    if len(linkage):
+        drawn = hierarchy.dendrogram(linkage, no_plot=True)
+        for across, along in zip(drawn["dcoord"], drawn["icoord"], strict=True):
+            axis.plot(across, along, color="0.35", linewidth=0.8)
+    axis.set_ylim(10 * len(names), 0)
+    axis.set_xlim(1.02 * linkage[:, 2].max() if len(linkage) else 1, 0)
+    axis.yaxis.tick_right()
+    axis.set_yticks(10 * np.arange(len(names)) + 5, names, fontsize=size)
+    for label, colour in zip(axis.get_yticklabels(), colours, strict=True):
+        label.set_color(0.8 * colour)
+    axis.tick_params(axis="y", length=0)
+    axis.spines[["left", "top", "right"]].set_visible(False)
+    axis.set_title("tree", fontsize=10)
+
+
+def _draw_map(
+    axis: Any,
+    names: Sequence[str],
+    family: Sequence[str],
+    places: Array,
+    colours: Array,
+    pictures: Sequence[Array | None] | None,
+) -> None:
+    """The map, with names: of all shapes, or of each family at its middle where there are many."""
+    from matplotlib.offsetbox import AnnotationBbox, OffsetImage
+
+    axis.scatter(*places.T, c=colours, s=26, edgecolors="white", linewidths=0.5)
+    for place, picture in zip(places, pictures or [None] * len(places), strict=True):
+        if picture is not None:
+            axis.add_artist(AnnotationBbox(OffsetImage(picture, zoom=0.5), place, frameon=False, pad=0))
+    if len(names) <= LABELLED:
+        for name, place, colour in zip(names, places, colours, strict=True):
+            _write(axis, name, place, 0.7 * colour, 8, below=pictures is not None)
+    else:
+        label = np.asarray(family)
+        for name in sorted(set(family)):
+            _write(axis, name, np.median(places[label == name], axis=0), 0.6 * colours[label == name][0], 11)
+    axis.set_aspect("equal", adjustable="datalim")
+    axis.margins(0.12)
+    axis.set_title("map (classical multidimensional scaling)", fontsize=10)
+
+
+def _write(axis: Any, text: str, place: Array, colour: Array, size: float, below: bool = False) -> None:
+    shift = (0, -26) if below else (4, 4)
+    align = {"ha": "center"} if below else {}
+    axis.annotate(text, place, xytext=shift, textcoords="offset points", color=colour, fontsize=size, **align)
