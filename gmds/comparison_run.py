@@ -108,7 +108,7 @@ def _measured(path: Path, store: Path) -> tuple[str, Array]:
     digest = fingerprint(mesh)["sha256"]
     kept = store / "profiles" / f"{path.stem}.npz"
     try:
-        with kept.open("rb") as stream, np.load(stream, allow_pickle=False) as archive:
+        with kept.open("rb") as file, np.load(file, allow_pickle=False) as archive:
             if str(archive["digest"]) == digest and str(archive["settings"]) == _SETTINGS:
                 return digest, archive["profile"]
     except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error):
