@@ -136,20 +136,27 @@ def main() -> None:
     for item in collection(*shapes, strengths=(1, 5) if settings.small else STRENGTHS):
         parts.append(described(item.mesh, SINGLE))
         items.append(item.without_mesh())
+    numbers = judged(items, parts)
+    publish(settings.output, "table1_retrieval", table(numbers["recognition"]["all"]), numbers)
+    if settings.report is not None:
+        settings.report.write_text(markdown(numbers), encoding="utf-8")
+
+
+def judged(items: Sequence[Item], parts: Parts) -> dict[str, Any]:
+    """All numbers: what there is, recognition rates by half of the classes, and category retrieval."""
     recognised: dict[str, Any] = {"all": {}, "reporting": {}, "development": {}}
     grouped: dict[str, Any] = {}
     for name in ROWS:
         found = bags(items, parts, name)
         for who, result in recognised.items():
-            kept = [i for i, x in enumerate(items) if x.strength == 0 or who in ("all", half(x))]
+            kept = [i for i, item in enumerate(items) if item.strength == 0 or who in ("all", half(item))]
             result[name] = recognition([items[i] for i in kept], found[kept])
         grouped[name] = categories(items, found)
-    number = {"classes": len(shapes[0]), "others": len(shapes[1]), "queries": sum(x.strength > 0 for x in items)}
+    kinds = [item.kind for item in items]
+    number = {"classes": kinds.count("null"), "others": kinds.count("distractor")}
+    number["queries"] = len(items) - sum(number.values())
     about = " ".join((__doc__ or "").split("\n\n", 1)[1].split())
-    numbers = {"about": about, "collection": number, "recognition": recognised, "categories": grouped}
-    publish(settings.output, "table1_retrieval", table(recognised["all"]), numbers)
-    if settings.report is not None:
-        settings.report.write_text(markdown(numbers), encoding="utf-8")
+    return {"about": about, "collection": number, "recognition": recognised, "categories": grouped}
 
 
 def half(item: Item) -> str:
