@@ -50,9 +50,14 @@ class SelfMap:
 
     @property
     def loss(self) -> float:
-        """Minus its log-likelihood up to a constant; of two, a map is the likelier the less of the surface it folds."""
+        """Minus its log-likelihood up to a constant: the deformation of the whole, and how much of it is folded over.
+
+        Unlike in `match` the outlines, whose parts keep their sizes, have had their say when the map was proposed, and
+        nothing is missing from a surface that is its own target. A map that swaps one pair of legs and not the other
+        folds the surface in between.
+        """
         evidence = self.embedded.evidence
-        return evidence.loss + float(np.log(max(1 - abs(evidence.orientation), LEAST_FOLDED)))
+        return evidence.whole.loss + float(np.log(max(1 - abs(evidence.orientation), LEAST_FOLDED)))
 
     @property
     def energy(self) -> float:
