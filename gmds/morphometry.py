@@ -16,8 +16,11 @@ from gmds.surface import View
 from gmds.upsampling import SampledPair
 
 Array = NDArray[np.float64]
+Index = NDArray[np.int64]
 
 KEPT = 8  # embeddings that each metric proposes
+DESCENDED = 3  # of all of them, are improved in each metric
+SWEEPS = 6
 
 
 @on_one_blas_thread
@@ -25,33 +28,57 @@ def dissimilarity(a: Mesh, b: Mesh) -> float:
     """How far apart two shapes are, whatever their poses and sizes and, within limits, the sizes of their parts; >= 0.
 
     "Morphometric similarity" of the abstract: the mean |d_S(s, s') - d_Q(rho s, rho s')| over the mean distance, for
-    the best map rho found of either surface into the other (sec. 5), in the scale-invariant metric (2.1); metrics and
-    distance are those of `distance_profile`. Symmetric, and 0 for congruent shapes, moved, resized or mirrored, up to
-    rounding. It takes seconds; `least_distortion` of two `distance_profile`s takes a millisecond, and finds no
+    the best map rho found of one surface into the other (sec. 5) and for the best one found back, whichever is more; in
+    the scale-invariant metric (2.1), metrics and distance being those of `distance_profile`. Both ways, as a surface
+    may embed well in another that has more to it. Symmetric, and 0 for congruent shapes, moved, resized or mirrored, up
+    to rounding. It takes seconds; `least_distortion` of two `distance_profile`s takes a millisecond, and finds no
     map. Raises `TooFewVertices` (E113), `MeshError`.
     """
     return embedding_distortion(views(Mesh.from_object(a)), views(Mesh.from_object(b)))
 
 
 def embedding_distortion(ours: Sequence[View], theirs: Sequence[View]) -> float:
-    """The distortion of the best map found from either surface to the other, given their `views` (sec. 5).
+    """The distortion of the best embeddings found of two surfaces in each other, given their `views` (sec. 5).
 
-    Starts are refined in each metric; every map is judged by its mean distortion over all metrics.
+    In each metric that of the way round that distorts more, each way by its own map: the modified Gromov-Hausdorff
+    distance (Memoli, Discrete Comput. Geom. 48, 2012) with means in place of maxima. Then the mean over the metrics.
     """
-    return min(_one_way(ours, theirs), _one_way(theirs, ours))
+    both_ways = zip(_one_way(ours, theirs), _one_way(theirs, ours), strict=True)
+    return float(np.mean([max(pair) for pair in both_ways]))
 
 
-def _one_way(source: Sequence[View], target: Sequence[View]) -> float:
-    """The least distortion of the maps found from source to target."""
-    here = [shares(view) for view in source]
-    before = [distances_of(view, places) for view, places in zip(source, here, strict=True)]
-    least = np.inf
-    for views_of_one in zip(source, target, strict=True):
-        pair = SampledPair.of(*views_of_one, sense=0)
-        for images in hypotheses(pair, initialization.ALL, KEPT):
-            gaps = [
-                np.abs(known - distances_of(view, pair.carried(images, places, view.usable))).mean()
-                for known, view, places in zip(before, target, here, strict=True)
-            ]
-            least = min(least, float(np.mean(gaps)))
+def _one_way(source: Sequence[View], target: Sequence[View]) -> list[float]:
+    """In each metric the least distortion of the maps found from source to target, in whichever metric they started."""
+    pairs = [SampledPair.of(*both, sense=0) for both in zip(source, target, strict=True)]
+    found = [(pair, images) for pair in pairs for images in hypotheses(pair, initialization.ALL, KEPT)]
+    return [_embedded(pair, found) for pair in pairs]
+
+
+def _embedded(pair: SampledPair, found: Sequence[tuple[SampledPair, Index]]) -> float:
+    """The least distortion to which the maps found descend in the metric of `pair`."""
+    here = shares(pair.source)
+    there = np.union1d(pair.target_samples, shares(pair.target))
+    ours, theirs = distances_of(pair.source, here), distances_of(pair.target, there)
+    starts = [np.searchsorted(there, other.carried(images, here, there)) for other, images in found]
+    first = [np.abs(ours - theirs[np.ix_(start, start)]).mean() for start in starts]
+    return min(descended(ours, theirs, starts[i]) for i in np.argsort(first, kind="stable")[:DESCENDED])
+
+
+def descended(ours: Array, theirs: Array, images: Index) -> float:
+    """The mean |d_S(x, x') - d_Q(y, y')| after each point in turn went where it is least, the others staying.
+
+    `ours` (p, p) and `theirs` (q, q) are distances, `images` (p,) says among the q where the p points start. Sweeps
+    repeat until they gain less than a hundredth: discrete generalised multidimensional scaling in the mean absolute
+    stress, which outliers sway less than the mean square.
+    """
+    places = images.copy()
+    least = float(np.abs(ours - theirs[np.ix_(places, places)]).mean())
+    for _ in range(SWEEPS):
+        for x, known in enumerate(ours):
+            cost = np.abs(theirs[:, places] - known)
+            cost[:, x] = 0  # the distance from x to itself is 0 wherever it goes
+            places[x] = cost.sum(axis=1).argmin()
+        before, least = least, float(np.abs(ours - theirs[np.ix_(places, places)]).mean())
+        if least > 0.99 * before:
+            break
     return least
