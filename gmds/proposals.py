@@ -32,12 +32,12 @@ class Proposal:
     back: Registered
 
     @classmethod
-    def of(cls, pair: SurfacePair, places: Array) -> Proposal:
-        """The map that sends the vertices of the source's outline to `places` (n, 3)."""
+    def of(cls, pair: SurfacePair, places: Array, *, growing: bool = False) -> Proposal:
+        """The map that sends the vertices of the source's outline to `places` (n, 3); parts may be `growing`."""
         source, target = pair.outlines
-        there = register(source, target, places, (*BEGIN, *COARSE), growing=False)
+        there = register(source, target, places, (*BEGIN, *COARSE), growing=growing)
         begun = returning(source, target, there.y)
-        return cls(there, register(target, source, begun, (*BEGIN, *COARSE), growing=False))
+        return cls(there, register(target, source, begun, (*BEGIN, *COARSE), growing=growing))
 
     @property
     def residuals(self) -> tuple[Residuals, Residuals]:

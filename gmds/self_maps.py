@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from geodesics import scale_invariant
 from gmds import initialization
 from gmds.candidates import Embedded, embed, finished
 from gmds.losses import Loss
@@ -35,6 +37,7 @@ STRESS = 0.2  # relative change of distances above which it is none
 SENSE = 0.5  # share of the area whose orientation a map must treat alike
 LEAST_FOLDED = 1e-3  # share of the area that is folded over at a vertex of any triangulation
 SAMPLES = 300
+SMOOTHING = 2e-3  # of the curvature, in the metric that only self-maps are proposed in
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,18 +122,27 @@ def self_maps(
 
 
 def proposed(pair: SurfacePair) -> list[Proposal]:
-    """Proposals from the rough maps of `match` that are neither alike nor near the identity: the likeliest of them."""
+    """Proposals from the rough maps of `match` that are neither alike nor near the identity: the likeliest of them.
+
+    One metric more than in `match`: curvature of either side of a surface comes from the same mesh, so that there is
+    less to be smoothed away, and what is left follows parts that grew more closely. Parts may grow from the beginning:
+    what would explain it otherwise, on a surface and itself, is only that they stay where they are.
+    """
     source, target = pair.outlines
-    views = list(zip(pair.source.views, pair.target.views, strict=True))
+    sharp = functools.partial(scale_invariant, smoothing=SMOOTHING)
+    views = [
+        *zip(pair.source.views, pair.target.views, strict=True),
+        (pair.source.view(sharp), pair.target.view(sharp)),
+    ]
     places = [target.mesh.vertices[images] for images in rough_maps(pair, views, initialization.ALL)]
-    begun = [register(source, target, place, BEGIN, growing=False) for place in places]
+    begun = [register(source, target, place, BEGIN, growing=True) for place in places]
     kept: list[int] = []
     for i in np.argsort([found.residuals.loss for found in begun], kind="stable"):
         new = all(source.areas @ np.linalg.norm(begun[i].y - begun[j].y, axis=1) > DISTINCT for j in kept)
         wanted = len(kept) < TRIED or begun[i].residuals.loss < CONVINCING / 2
         if new and wanted and _moves(begun[i], pair) > _still(pair):
             kept.append(int(i))
-    return [Proposal.of(pair, places[i]) for i in kept]
+    return [Proposal.of(pair, places[i], growing=True) for i in kept]
 
 
 def likely(maps: list[SelfMap], apart: float = APART) -> list[SelfMap]:
