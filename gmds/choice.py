@@ -19,6 +19,7 @@ Index = NDArray[np.int64]
 
 FUNCTIONS = 40
 SAMPLES = 500  # between which the stress is taken
+LEAST_FOLDED = 1e-3  # share of the area, twice: so much is folded over at a vertex of any triangulation
 HIT = 0.02  # square roots of the area within which a landmark counts as hit
 
 
@@ -48,13 +49,15 @@ class Evidence:
 
     @property
     def loss(self) -> float:
-        """Minus the log-likelihood up to a constant: the deformations, and the landmarks.
+        """Minus the log-likelihood up to a constant: the deformations, what is folded over, and the landmarks.
 
-        Where there is a boundary, and parts may be missing, parts that grow could hide it: there the outlines decide.
+        Where there is a boundary, and parts may be missing, parts that grow could hide it: there the outlines decide. A
+        map that swaps two legs and leaves what is between them folds that.
         """
         outlines = sum(residuals.loss for residuals in self.outlines)
         whole = self.whole.loss if self.closed else 0.0
-        return outlines + whole + float(np.log(1 + self.landmark_error / HIT))
+        folded = float(np.log(max(1 - self.orientation, LEAST_FOLDED)))
+        return outlines + whole + folded + float(np.log(1 + self.landmark_error / HIT))
 
 
 def evidence(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -15,12 +16,14 @@ from geodesics import Mesh, embedded, stiffness
 from gmds._kernels.rotations import nearest_rotations
 
 Array = NDArray[np.float64]
+Index = NDArray[np.int64]
 Solver = Callable[[Array], Array]
 
 SIZE_TIME = 1e-3  # heat time, in units of the area, over which the local size is averaged
 DOUBT = 0.05  # logarithm of a size below which the change is rather noise than growth
 LARGEST = 10.0  # local size, and one over the least
 FAINT = 1e-12  # weight of vertices that nothing holds
+SUPERNODES: dict[str, Any] = {"relax": 1, "panel_size": 1, "options": {"SymmetricMode": True}}  # what suits so few
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +57,19 @@ class Elasticity:
         return self.stiffness @ x, self._weights @ x, self._spread(x)
 
     @functools.cached_property
+    def _ordered(self) -> tuple[Index, sp.csc_matrix, Index]:
+        """An order (n,) of the vertices with little fill-in, L in that order, and where its diagonal is stored."""
+        filled = (self.stiffness + sp.identity(len(self.areas))).tocsc()
+        found = sla.splu(filled, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, **SUPERNODES).perm_c
+        order = np.argsort(found)
+        rest = (filled[order][:, order]).tocsc()
+        rest.sort_indices()
+        columns = np.repeat(np.arange(len(order)), np.diff(rest.indptr))
+        diagonal = np.flatnonzero(rest.indices == columns)
+        rest.data[diagonal] -= 1.0
+        return order, rest, diagonal
+
+    @functools.cached_property
     def _solvers(self) -> dict[float, Solver]:
         return {}
 
@@ -65,8 +81,18 @@ class Elasticity:
 
     def solver(self, stiff: float, weights: Array) -> Solver:
         """Solves (stiff L + diag(weights)) y = b; `stiff` is an area, weights (n,) are areas."""
-        matrix = (stiff * self.stiffness + sp.diags(weights + FAINT)).tocsc()
-        return sla.splu(matrix, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}).solve
+        order, rest, diagonal = self._ordered
+        matrix = rest.copy()
+        matrix.data *= stiff
+        matrix.data[diagonal] += weights[order] + FAINT
+        solve = sla.splu(matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0, **SUPERNODES).solve
+
+        def unordered(right: Array) -> Array:
+            result = np.empty_like(right)
+            result[order] = solve(right[order])
+            return result
+
+        return unordered
 
     def turns(self, y: Array, growing: bool) -> Array:
         """The matrices s_i R_i (n, 3, 3) of least energy for vertices at y (n, 3); s_i all alike unless parts grow.

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import functools
 import time
 from collections.abc import Callable
 from typing import Any, Literal
 
 from geodesics import Distance, Mesh
-from geodesics.threads import on_one_blas_thread
+from geodesics.threads import on_one_blas_thread, side_by_side
 from gmds import initialization
 from gmds._validation import check_sample_count, suggest_keywords
 from gmds.answer import answer
@@ -17,12 +18,13 @@ from gmds.initialization.landmarks import landmarks as from_landmarks
 from gmds.landmarks import landmark_vertices
 from gmds.losses import LeastSquares, Loss
 from gmds.pair import SurfacePair
-from gmds.proposals import PROPOSED, Proposal, Start, distinct, proposals
+from gmds.proposals import Start, distinct, proposals
 from gmds.surface import measure, view_of
 
 SAMPLES = 300
 ENOUGH = 3  # landmarks that need no other starts
 REFINED = 3  # maps whose samples are placed by the solver
+UNLIKELY = 0.8  # log-likelihood short of the best, at which no map of development pairs was the answer in the end
 REFLECTED = {"preserve": (False,), "reverse": (True,), "any": (False, True)}
 
 
@@ -62,8 +64,7 @@ def match(  # noqa: PLR0913 - the signature is a promise
 
     report("measuring", 0.0)
     measured = measure(source)
-    most = len(measured.regular.usable)
-    count = min(SAMPLES, most) if n_samples is None else check_sample_count(n_samples, source)
+    count = SAMPLES if n_samples is None else check_sample_count(n_samples, source)
     starts: list[Start] = list(initialization.ALL)
     if known is not None:
         starts = [from_landmarks(*known), *(starts if len(known[0]) < ENOUGH else ())]
@@ -71,20 +72,20 @@ def match(  # noqa: PLR0913 - the signature is a promise
     for reflected in REFLECTED[orientation]:
         pair = SurfacePair(measured, measure(target, reflected=reflected), known, reflected)
         given = None
-        views = list(zip(pair.source.views, pair.target.views, strict=True))
-        if distance is not None:
+        if distance is None:
+            ours, theirs = side_by_side(lambda surface: surface.views, (pair.source, pair.target))
+            views = list(zip(ours, theirs, strict=True))
+        else:
             distances = distance(pair.source.mesh), distance(pair.target.mesh)
             given = (view_of(distances[0], pair.source), view_of(distances[1], pair.target)), distances
             views = [given[0]]
-        found: list[Proposal] = []
-        for proposal in proposals(pair, views, starts):
-            report("proposing", 0.2 + 0.4 * min(1.0, len(found) / (PROPOSED * len(views))))
-            found.append(proposal)
-        chosen = distinct(found, pair.outlines[0], REFINED)
-        for i, proposal in enumerate(chosen):
-            report("embedding", 0.6 + 0.4 * i / len(chosen))
-            placed.append(embed(pair, proposal, loss, count, given))
+        count = min(count, len(pair.source.regular.usable))
+        report("proposing", 0.2)
+        chosen = distinct(proposals(pair, views, starts), pair.outlines[0], REFINED, UNLIKELY)
+        report("embedding", 0.5)
+        placed += side_by_side(functools.partial(embed, pair, loss=loss, count=count, given=given), chosen)
     placed.sort(key=lambda e: e.evidence.loss)
+    report("refining", 0.7)
     if distance is None:
         placed[0] = finished(placed[0])
     other = mirrored(placed[0])

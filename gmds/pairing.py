@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from geodesics import SurfacePoints
+from geodesics.threads import threads
 from gmds.geometry import Geometry
 from gmds.surface import View
 
@@ -17,6 +18,7 @@ Index = NDArray[np.int64]
 
 SPECTRAL_WEIGHT = 0.15  # root areas that root mean square eigenfunctions, all taken together, are worth
 CANDIDATES = 10  # closest vertices in position and normal among which eigenfunctions decide
+MANY = 2000  # vertices for which threads pay
 _BLOCK = 1 << 12  # queries compared at a time
 
 
@@ -44,13 +46,16 @@ class Pairing:
         2019). They keep round limbs from turning about their axis, where position and normal say nothing.
         """
         ours, theirs = source.moved_features(y), target.features
+        workers = threads() if len(ours) >= MANY else 1
         if views is None:
-            near = target.usable[target.tree.query(ours)[1]]
-            back = source.usable[cKDTree(ours[source.usable]).query(theirs[target.usable])[1]]
+            near = target.usable[target.tree.query(ours, workers=workers)[1]]
+            back = source.usable[cKDTree(ours[source.usable]).query(theirs[target.usable], workers=workers)[1]]
         else:
             few = min(CANDIDATES, len(source.usable), len(target.usable))
-            ahead = target.usable[target.tree.query(ours, k=few)[1]].reshape(-1, few)
-            behind = source.usable[cKDTree(ours[source.usable]).query(theirs[target.usable], k=few)[1]].reshape(-1, few)
+            ahead = target.usable[target.tree.query(ours, k=few, workers=workers)[1]].reshape(-1, few)
+            behind = source.usable[
+                cKDTree(ours[source.usable]).query(theirs[target.usable], k=few, workers=workers)[1]
+            ].reshape(-1, few)
             here, there = _spectral_rows(source, views, ahead[:, 0])
             ours, theirs = np.hstack([ours, here]), np.hstack([theirs, there])
             near, back = _nearest(ours, theirs, ahead), _nearest(theirs[target.usable], ours, behind)

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+import functools
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from geodesics.threads import side_by_side
 from gmds.geometry import Geometry
 from gmds.hypotheses import hypotheses
 from gmds.pair import SurfacePair
-from gmds.registration import BEGIN, COARSE, Registered, Residuals, register, returning
+from gmds.registration import BEGIN, COARSE, Registered, Residuals, register, returning, settled
 from gmds.surface import View
 from gmds.upsampling import SampledPair
 
@@ -21,6 +23,7 @@ Start = Callable[[SampledPair], list[Index]]
 
 PROPOSED = 16  # maps that each metric proposes
 LEAST_KEPT = 8  # of them all, at the least, are registered to the end
+RETURNED = 12  # of these, the most likely, are registered the way back as well
 APART = 0.05  # root mean square gap, in root areas, below which two maps are one
 
 
@@ -36,6 +39,12 @@ class Proposal:
         """The map that sends the vertices of the source's outline to `places` (n, 3); parts may be `growing`."""
         source, target = pair.outlines
         there = register(source, target, places, (*BEGIN, *COARSE), growing=growing)
+        return cls.completed(pair, there, growing=growing)
+
+    @classmethod
+    def completed(cls, pair: SurfacePair, there: Registered, *, growing: bool = False) -> Proposal:
+        """The map of the outline of the source `there` on that of the target."""
+        source, target = pair.outlines
         begun = returning(source, target, there.y)
         return cls(there, register(target, source, begun, (*BEGIN, *COARSE), growing=growing))
 
@@ -53,18 +62,24 @@ class Proposal:
         return sum(residuals.loss for residuals in self.residuals)
 
 
-def proposals(pair: SurfacePair, views: Sequence[tuple[View, View]], starts: Sequence[Start]) -> Iterator[Proposal]:
+def proposals(pair: SurfacePair, views: Sequence[tuple[View, View]], starts: Sequence[Start]) -> list[Proposal]:
     """Maps from starts in each pair of views, and composed with a reflection, each registered on the outlines.
 
     A reflection of either surface makes of a mirrored map the right one, and of a right one the mirrored. Which is
     which shows when the outline of the source is deformed: a surface can not be turned inside out for little. The third
-    that needs the least deformation to begin with is registered to the end.
+    that needs the least deformation to begin with is registered to the end, and `RETURNED` of these the way back.
     """
     source, target = pair.outlines
     places = [target.mesh.vertices[images] for images in rough_maps(pair, views, starts)]
-    first = [register(source, target, place, BEGIN, growing=False).residuals.loss for place in places]
-    for i in np.argsort(first, kind="stable")[: max(LEAST_KEPT, len(places) // 3)]:
-        yield Proposal.of(pair, places[i])
+    begun = side_by_side(lambda place: register(source, target, place, BEGIN, growing=False), places)
+    likely = _cheapest(begun)[: max(LEAST_KEPT, len(places) // 3)]
+    there = side_by_side(lambda found: settled(source, target, found.y, COARSE, growing=False), likely)
+    return side_by_side(functools.partial(Proposal.completed, pair), _cheapest(there)[:RETURNED])
+
+
+def _cheapest(found: Sequence[Registered]) -> list[Registered]:
+    """Those that need the least deformation first."""
+    return sorted(found, key=lambda one: one.residuals.loss)
 
 
 def rough_maps(pair: SurfacePair, views: Sequence[tuple[View, View]], starts: Sequence[Start]) -> list[Index]:
@@ -73,23 +88,28 @@ def rough_maps(pair: SurfacePair, views: Sequence[tuple[View, View]], starts: Se
     spot = np.zeros(pair.target.mesh.n_vertices, dtype=np.int64)
     spot[there.origin] = np.arange(len(there.origin))
     straight, turned = [], []
-    for both in views:
-        sampled = SampledPair.of(*both)
-        for images in hypotheses(sampled, starts, PROPOSED):
-            straight.append(spot[sampled.carried(images, here.origin, there.origin)])
+    sampled = side_by_side(lambda both: SampledPair.of(*both), views)
+    proposed = side_by_side(lambda one: hypotheses(one, starts, PROPOSED), sampled)
+    for one, maps in zip(sampled, proposed, strict=True):
+        for images in maps:
+            straight.append(spot[one.carried(images, here.origin, there.origin)])
             if ours is not None:
-                turned.append(spot[sampled.carried(images, ours[here.origin], there.origin)])
+                turned.append(spot[one.carried(images, ours[here.origin], there.origin)])
     if theirs is not None:
         back = there.places.query(pair.target.mesh.vertices[theirs[there.origin]])[1]
         turned = [back[images] for images in straight]
     return straight + turned
 
 
-def distinct(found: Sequence[Proposal], source: Geometry, count: int) -> list[Proposal]:
-    """The `count` best, best first, leaving out those that nearly repeat a better one."""
+def distinct(found: Sequence[Proposal], source: Geometry, count: int, within: float = np.inf) -> list[Proposal]:
+    """The `count` best, best first, leaving out those that nearly repeat a better one.
+
+    Those whose log-likelihood falls short of the best by more than `within` are left out as well.
+    """
     kept: list[Proposal] = []
     for proposal in sorted(found, key=lambda p: p.loss):
-        if len(kept) < count and all(_gap(proposal, other, source.areas) > APART for other in kept):
+        likely = not kept or proposal.loss < kept[0].loss + within
+        if likely and len(kept) < count and all(_gap(proposal, other, source.areas) > APART for other in kept):
             kept.append(proposal)
     return kept
 
