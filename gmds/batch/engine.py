@@ -1,0 +1,97 @@
+"""Tasks on dask.distributed: workers that may die, and no more tasks in the air than there are threads to do them."""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, TypeVar
+
+from geodesics.errors import MissingExtra
+from gmds.batch.records import WORKER_DIED, Failure
+
+Job = TypeVar("Job")
+Result = TypeVar("Result")
+
+TRIES = 3  # workers that may die of a task before it is given up
+INSTALL = "a batch needs dask.distributed; install it with: pip install 'gmds[batch]'"
+
+
+@contextlib.contextmanager
+def local_client(workers: int | None = None) -> Iterator[Any]:
+    """A client of a cluster on this machine: one process and thread for each processor, or as many as `workers`.
+
+    Together they may take the memory there is; one that takes more than its share is ended and replaced.
+    Raises `MissingExtra` (E602).
+    """
+    distributed = _distributed()
+    import dask
+
+    with dask.config.set({"distributed.scheduler.allowed-failures": TRIES - 1}):
+        cluster = distributed.LocalCluster(
+            n_workers=workers,
+            threads_per_worker=1,
+            processes=True,
+            dashboard_address=None,
+            silence_logs=logging.CRITICAL,
+        )
+    with cluster, distributed.Client(cluster) as client:
+        yield client
+
+
+@contextlib.contextmanager
+def remote_client(address: str) -> Iterator[Any]:
+    """A client of the scheduler at an address. Raises `MissingExtra` (E602), `OSError` when nobody answers there."""
+    with _distributed().Client(address, timeout=20) as client:
+        yield client
+
+
+def outcomes(
+    client: Any, function: Callable[[Job], Result], jobs: Iterable[Job]
+) -> Iterator[tuple[Job, Result | Failure]]:
+    """Each job with its result as soon as it is there; a job whose workers die gets a `Failure`, and the rest go on.
+
+    Jobs are taken as workers become free, so there may be any number of them. When the caller stops, so do they.
+    """
+    from distributed import as_completed
+
+    waiting = iter(jobs)
+    running: dict[Any, Job] = {}
+    done = as_completed()
+
+    def refill() -> None:
+        free = max(1, sum(client.nthreads().values())) - len(running)
+        for _ in range(free):
+            for job in waiting:
+                future = client.submit(function, job, pure=False)
+                running[future] = job
+                done.add(future)
+                break
+
+    try:
+        refill()
+        while running:
+            future = next(done)
+            yield running.pop(future), _result(future)
+            refill()
+    finally:
+        client.cancel(list(running), force=True)
+
+
+def _result(future: Any) -> Any:
+    from distributed import KilledWorker
+
+    try:
+        return future.result()
+    except KilledWorker:
+        return Failure(WORKER_DIED, f"{TRIES} workers died of it: killed from outside, or for want of memory")
+    except Exception as error:
+        return Failure.of(error)
+
+
+def _distributed() -> Any:
+    try:
+        import distributed
+    except ImportError as error:
+        raise MissingExtra(INSTALL) from error
+    return distributed
