@@ -2,8 +2,8 @@
 
 Members: `original_*`, `mesh_*`: vertices and faces of the mesh, and of its largest part turned and resized;
 `face_index`; for each view (`view0`, `view1`, `detail`) its mass, eigenvalues, eigenfunctions and cells of farthest
-points; `curvature`; `outline_*`: vertices, faces and origin, unless the outline is the whole; `reversing`, if there is such
-a self-map. Numbers keep all their bits: surfaces from files are matched as the meshes are.
+points; `curvature`; `outline_*`: vertices, faces and origin, unless the outline is the whole; `reversing`, if there is
+such a self-map. Numbers keep all their bits: surfaces from files are matched as the meshes are.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Many pairs of a collection of shapes, matched side by side; resumed where it stopped, and no failure stops the rest."""
+"""Many pairs of a collection of shapes, matched side by side; resumed where it stopped, whatever fails."""
 
 from gmds.batch.engine import local_client, remote_client
 from gmds.batch.pairs import all_pairs, both_ways, consecutive, with_template

@@ -52,7 +52,8 @@ class ShapeRecord:
 class PairRecord:
     """A pair: the status of its map, the share of valid vertices, the median distortion, stress and margin.
 
-    `kept`: whether the map was there before. `seconds` of CPU time. With a `failure` there is no map; `status` is then
+    `blame`: how far around triangles of shapes points go astray with this map in it, see `Consistency.blame`. `kept`:
+    whether the map was there before. `seconds` of CPU time. With a `failure` there is no map; `status` is then
     "failed", or "missing" when its turn never came.
     """
 
@@ -63,6 +64,7 @@ class PairRecord:
     distortion: float | None = None
     stress: float | None = None
     margin: float | None = None
+    blame: float | None = None
     seconds: float = 0.0
     kept: bool = False
     failure: Failure | None = None
@@ -75,7 +77,7 @@ class PairRecord:
     def cells(self) -> dict[str, Any]:
         """The row of the summary: nothing that another run would tell differently."""
         failure = self.failure or Failure("", "")
-        figures = {name: getattr(self, name) for name in ("valid", "distortion", "stress", "margin")}
+        figures = {name: getattr(self, name) for name in ("valid", "distortion", "stress", "margin", "blame")}
         return {
             "source": self.source,
             "target": self.target,

@@ -5,13 +5,15 @@ from __future__ import annotations
 import contextlib
 import platform
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from gmds._validation import check_keys
 from gmds.answer import versions
+from gmds.batch.agreement import agreement, write_cycles
 from gmds.batch.collection import Collection, Given
+from gmds.batch.cycles import Consistency
 from gmds.batch.engine import local_client, outcomes
 from gmds.batch.kept import Expected, pair_record
 from gmds.batch.lock import only_run
@@ -27,21 +29,26 @@ from gmds.matching import SAMPLES
 Progress = Callable[[str, float], None]
 
 OPTIONS = ("distance", "loss", "n_samples", "orientation", "rng")
-MEASURING = 0.1  # of the progress
+UNDONE = ("failed", "missing")
+MEASURING, CYCLES = 0.1, 0.02  # of the progress
 
 
 @dataclass(frozen=True, eq=False)
 class Batch:
-    """What came of a collection: a record of every shape and of every pair, in the order of the pairs."""
+    """What came of a collection: a record of every shape and of every pair, in the order of the pairs.
+
+    `consistency`: whether the maps agree around triangles of shapes.
+    """
 
     output: Path
     shapes: Mapping[str, ShapeRecord]
     pairs: tuple[PairRecord, ...]
+    consistency: Consistency
 
     @property
     def failed(self) -> tuple[PairRecord, ...]:
         """Pairs without a map."""
-        return tuple(pair for pair in self.pairs if pair.status in ("failed", "missing"))
+        return tuple(pair for pair in self.pairs if pair.status in UNDONE)
 
     def map_file(self, pair: PairRecord) -> Path:
         """Where the map of a pair is."""
@@ -86,6 +93,7 @@ def match_collection(
         stack.callback(run.manifest.close)
         stack.callback(run.summarise)
         run.work(client)
+        run.agree()
         return run.result()
 
 
@@ -100,6 +108,7 @@ class _Run:
     progress: Progress
     shapes: dict[str, ShapeRecord] = field(default_factory=dict)
     pairs: dict[tuple[str, str], PairRecord] = field(default_factory=dict)
+    consistency: Consistency = field(default_factory=lambda: Consistency(()))
 
     def __post_init__(self) -> None:
         self.manifest = Manifest(self.folder / "manifest.jsonl")
@@ -151,12 +160,23 @@ class _Run:
         self.pairs[record.source, record.target] = record
         self.manifest.tell("pair", event(record))
         share = len(self.pairs) / len(self.collection.pairs)
-        self.progress(f"{len(self.pairs)} of {len(self.collection.pairs)} pairs", MEASURING + (1 - MEASURING) * share)
+        self.progress(
+            f"{len(self.pairs)} of {len(self.collection.pairs)} pairs", MEASURING + (1 - MEASURING - CYCLES) * share
+        )
 
     def result(self) -> Batch:
         """How things stand."""
         rows = tuple(self.pairs.get(pair) or PairRecord(*pair) for pair in self.collection.pairs)
-        return Batch(self.folder, dict(self.shapes), rows)
+        return Batch(self.folder, dict(self.shapes), rows, self.consistency)
+
+    def agree(self) -> None:
+        """Take the maps around triangles of shapes, and blame those that lead astray."""
+        done = [pair for pair in self.result().pairs if pair.status not in UNDONE]
+        report = lambda share: self.progress("going around triangles", 1 - CYCLES + CYCLES * share)  # noqa: E731
+        self.consistency = agreement(self.folder / "pairs", self.store, self.shapes, done, report)
+        write_cycles(self.folder / "cycles.csv", self.consistency)
+        for pair, blame in self.consistency.blame.items():
+            self.pairs[pair] = replace(self.pairs[pair], blame=blame)
 
     def summarise(self) -> None:
         """Write how things stand, also when the run was interrupted."""

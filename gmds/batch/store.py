@@ -7,6 +7,9 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
+
 from geodesics import Mesh
 from geodesics.threads import on_one_blas_thread
 from gmds import refinement, surface, surface_file, upsampling
@@ -54,6 +57,15 @@ class Store:
         if self._path(record.key, True).exists():
             vars(found)["reflection"] = read_surface(self._path(record.key, True))
         return found
+
+    def outside(self, record: ShapeRecord, count: int) -> tuple[Mesh, NDArray[np.int64]]:
+        """The mesh of a stored surface, and `count` of its vertices evenly spread, without all the rest."""
+        with np.load(self._path(record.key, False), allow_pickle=False) as archive:
+            most = max(
+                (name for name in archive if name.startswith("detail_samples_")),
+                key=lambda name: int(name.rpartition("_")[2]),
+            )
+            return Mesh(archive["original_vertices"], archive["original_faces"]), archive[most][:count]
 
     def _kept(self, mesh: Mesh, key: str, reflected: bool) -> bool:
         path = self._path(key, reflected)

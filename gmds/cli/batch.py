@@ -13,9 +13,12 @@ from gmds.cli.output import emit, json_option, note, progress_bar, seed_option
 
 if TYPE_CHECKING:
     from gmds.batch import Batch
+    from gmds.batch.cycles import Consistency
 
 PATH = click.Path(path_type=Path)
 TOLD = 20  # failures that are named on stderr; the rest are in the summary
+SHOWN = 5  # cycles, and pairs to blame
+SHARES = ("within_005", "within_010")
 
 
 @click.command(cls=Command, short_help="Match many pairs, side by side.")
@@ -45,6 +48,7 @@ def command(list_or_dir: Path, output: Path, as_json: bool, **options: Any) -> N
     The output folder holds
       pairs/A__B.npz  maps, as `gmds match` writes them, but for the time it took
       summary.csv     a row for every pair: its status, or the code and the reason of a failure
+      cycles.csv      how far from home points come that go A > B > C > A, worst first
       manifest.jsonl  what happened when: a line of JSON for every run, shape and pair
       shapes/         what was measured of each shape, once for all its pairs
 
@@ -113,4 +117,19 @@ def _told(done: Batch) -> dict[str, Any]:
         "done_before": sum(pair.kept for pair in done.pairs),
         "failed": len(done.failed),
         "status": {status: statuses.count(status) for status in dict.fromkeys(statuses)},
+        "cycles": _agreement(done.consistency),
+    }
+
+
+def _agreement(found: Consistency) -> dict[str, Any] | None:
+    """How well the maps agree around triangles of shapes; None where there is no triangle."""
+    if found.mean is None:
+        return None
+    figures = {name: sum(getattr(c, name) for c in found.cycles) / len(found.cycles) for name in SHARES}
+    return {
+        "count": len(found.cycles),
+        "mean": found.mean,
+        **figures,
+        "worst": {str(cycle): cycle.mean for cycle in found.cycles[:SHOWN]},
+        "most_blamed": {f"{a}__{b}": blame for (a, b), blame in list(found.blame.items())[:SHOWN]},
     }
