@@ -16,6 +16,7 @@ from geodesics import SurfacePoints
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 Pair = tuple[str, str]
+Route = tuple[str, str, str]
 
 MOST = 20_000  # triangles of shapes that are looked at; of more, as many are drawn at random, the same every time
 FEW_SHAPES = 100  # up to which all triangles are listed before any are drawn
@@ -54,7 +55,7 @@ class Cycle:
     the distance on the surface; `within_005`, `within_010`: the share of points that are nearer than that.
     """
 
-    route: tuple[str, str, str]
+    route: Route
     home: bool
     mean: float
     within_005: float
@@ -112,7 +113,7 @@ def consistency(
     return Consistency(tuple(sorted(found, key=lambda cycle: (-cycle.mean, cycle.route))))
 
 
-def _judged(route: tuple[str, str, str], home: bool, load: Callable[[Pair], CarriedMap]) -> Cycle:
+def _judged(route: Route, home: bool, load: Callable[[Pair], CarriedMap]) -> Cycle:
     """Coordinates are carried back along the route, as functions, and compared with what they should be."""
     a, b, c = route
     first, second, last = load((a, b)), load((b, c)), load((c, a) if home else (a, c))
@@ -131,17 +132,18 @@ def _judged(route: tuple[str, str, str], home: bool, load: Callable[[Pair], Carr
     return Cycle(route, home, *(float(x) for x in (gap.mean(), (gap < 0.05).mean(), (gap < 0.10).mean())))
 
 
-def _cycles(known: set[Pair], triangles: Iterable[tuple[str, str, str]]) -> Iterator[tuple[tuple[str, str, str], bool]]:
+def _cycles(known: set[Pair], triangles: Iterable[Route]) -> Iterator[tuple[Route, bool]]:
     """The cycles in each triangle: around it both ways, or where that can not be done, one way beside the other."""
     for a, b, c in triangles:
-        around = [route for route in ((a, b, c), (a, c, b)) if {*itertools.pairwise((*route, a))} <= known]
+        ways: tuple[Route, Route] = (a, b, c), (a, c, b)
+        around = [route for route in ways if {*itertools.pairwise((*route, a))} <= known]
         yield from ((route, True) for route in around)
         if not around:
             orders = itertools.permutations((a, b, c))
             yield from ((o, False) for o in orders if {(o[0], o[1]), (o[1], o[2]), (o[0], o[2])} <= known)
 
 
-def _triangles(pairs: Sequence[Pair], most: int) -> list[tuple[str, str, str]]:
+def _triangles(pairs: Sequence[Pair], most: int) -> list[Route]:
     """Triangles of shapes of which each two are matched in some direction: all, or `most` of them drawn at random."""
     near: dict[str, set[str]] = defaultdict(set)
     for one, other in pairs:

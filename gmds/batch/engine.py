@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import logging
+import os
+import signal
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, TypeVar
 
@@ -36,7 +38,13 @@ def local_client(workers: int | None = None) -> Iterator[Any]:
             silence_logs=logging.CRITICAL,
         )
     with cluster, distributed.Client(cluster) as client:
-        yield client
+        try:
+            client.register_worker_callbacks(_ignore_interrupts)
+            yield client
+        except BaseException:
+            for nanny in cluster.workers.values():
+                _end(nanny)
+            raise
 
 
 @contextlib.contextmanager
@@ -76,6 +84,19 @@ def outcomes(
             refill()
     finally:
         client.cancel(list(running), force=True)
+
+
+def _ignore_interrupts() -> None:
+    """Ctrl-C in a terminal reaches all processes; the first one tells the workers what to do."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def _end(nanny: Any) -> None:
+    """End a worker process in the middle of its work, and let no other take its place."""
+    nanny.close_gracefully()
+    if nanny.pid is not None:
+        with contextlib.suppress(OSError):
+            os.kill(nanny.pid, getattr(signal, "SIGKILL", signal.SIGTERM))
 
 
 def _result(future: Any) -> Any:
