@@ -140,7 +140,7 @@ def _cycles(known: set[Pair], triangles: Iterable[Route]) -> Iterator[tuple[Rout
         yield from ((route, True) for route in around)
         if not around:
             orders = itertools.permutations((a, b, c))
-            yield from ((o, False) for o in orders if {(o[0], o[1]), (o[1], o[2]), (o[0], o[2])} <= known)
+            yield from (((x, y, z), False) for x, y, z in orders if {(x, y), (y, z), (x, z)} <= known)
 
 
 def _triangles(pairs: Sequence[Pair], most: int) -> list[Route]:

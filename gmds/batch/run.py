@@ -29,6 +29,7 @@ from gmds.matching import SAMPLES
 Progress = Callable[[str, float], None]
 
 OPTIONS = ("distance", "loss", "n_samples", "orientation", "rng")
+LEFT_OVER = ("*/.gmds-*.tmp", "pairs/.*.late")  # by processes that were killed
 UNDONE = ("failed", "missing")
 MEASURING, CYCLES = 0.1, 0.02  # of the progress
 
@@ -111,6 +112,8 @@ class _Run:
     consistency: Consistency = field(default_factory=lambda: Consistency(()))
 
     def __post_init__(self) -> None:
+        for left in (path for kind in LEFT_OVER for path in self.folder.glob(kind)):
+            left.unlink(missing_ok=True)
         self.manifest = Manifest(self.folder / "manifest.jsonl")
         self.parameters = {
             **described(self.options.get("distance"), self.options.get("loss") or LeastSquares()),
