@@ -14,7 +14,7 @@ import pytest
 
 import gmds
 from geodesics import write_mesh
-from gmds.batch import consecutive, local_client, match_collection
+from gmds.batch import consecutive, engine, local_client, match_collection
 
 pytest.importorskip("distributed", reason="the extra `batch` is not installed")
 
@@ -86,3 +86,20 @@ def test_what_is_done_is_kept(
         again = match_collection(meshes, tmp_path, pairs=consecutive, client=client)
     assert any(pair.kept for pair in again.pairs)
     assert batches.tree(tmp_path) == undisturbed and not list(tmp_path.glob("*/.*"))
+
+
+def test_workers_that_are_killed_as_they_start_are_replaced(
+    meshes: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(engine, "LOST", 3)
+    monkeypatch.setattr(engine, "PATIENCE", 0.5)
+    with local_client(1) as client:
+        (first,) = batches.worker_pids(client)
+        os.kill(first, signal.SIGKILL)
+        until = time.monotonic() + 60
+        while time.monotonic() < until:
+            if young := set(batches.worker_pids(client)) - {first}:
+                os.kill(young.pop(), signal.SIGKILL)
+                break
+            time.sleep(0.01)
+        assert not match_collection(meshes, tmp_path, pairs=[("s0", "s1")], client=client).failed

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import logging
 import os
 import signal
@@ -16,6 +17,8 @@ Job = TypeVar("Job")
 Result = TypeVar("Result")
 
 TRIES = 3  # workers that may die of a task before it is given up
+LOST = 30  # seconds that a worker may take to come back, after which it is replaced
+PATIENCE = 5.0  # seconds between two looks at the workers while nothing is done
 INSTALL = "a batch needs dask.distributed; install it with: pip install 'gmds[batch]'"
 
 
@@ -29,7 +32,12 @@ def local_client(workers: int | None = None) -> Iterator[Any]:
     distributed = _distributed()
     import dask
 
-    with dask.config.set({"distributed.scheduler.allowed-failures": TRIES - 1}):
+    settings = {
+        "distributed.scheduler.allowed-failures": TRIES - 1,
+        "distributed.deploy.lost-worker-timeout": f"{LOST} s",
+    }
+    with contextlib.ExitStack() as stack:
+        stack.enter_context(dask.config.set(settings))
         cluster = distributed.LocalCluster(
             n_workers=workers,
             threads_per_worker=1,
@@ -37,7 +45,7 @@ def local_client(workers: int | None = None) -> Iterator[Any]:
             dashboard_address=None,
             silence_logs=logging.CRITICAL,
         )
-    with cluster, distributed.Client(cluster) as client:
+        client = stack.enter_context(distributed.Client(stack.enter_context(cluster)))
         try:
             client.register_worker_callbacks(_ignore_interrupts)
             yield client
@@ -61,29 +69,31 @@ def outcomes(
 
     Jobs are taken as workers become free, so there may be any number of them. When the caller stops, so do they.
     """
-    from distributed import as_completed
-
-    waiting = iter(jobs)
-    running: dict[Any, Job] = {}
-    done = as_completed()
-
-    def refill() -> None:
-        free = max(1, sum(client.nthreads().values())) - len(running)
-        for _ in range(free):
-            for job in waiting:
-                future = client.submit(function, job, pure=False)
-                running[future] = job
-                done.add(future)
-                break
-
+    waiting, running = iter(jobs), dict[Any, Job]()
     try:
-        refill()
-        while running:
-            future = next(done)
-            yield running.pop(future), _result(future)
-            refill()
+        while True:
+            free = max(1, sum(client.nthreads().values())) - len(running)
+            for job in itertools.islice(waiting, max(0, free)):
+                running[client.submit(function, job, pure=False)] = job
+            if not running:
+                return
+            for future in _finished(client, list(running)):
+                yield running.pop(future), _result(future)
     finally:
         client.cancel(list(running), force=True)
+
+
+def _finished(client: Any, futures: list[Any]) -> Iterable[Any]:
+    """Those of the futures that are done, if any is within `PATIENCE` seconds; else lost workers are replaced."""
+    from distributed import wait
+
+    try:
+        done: Iterable[Any] = wait(futures, timeout=PATIENCE, return_when="FIRST_COMPLETED").done
+    except TimeoutError:
+        if isinstance(client.cluster, _distributed().LocalCluster):  # forgets a worker that was killed as it started
+            client.cluster.scale(len(client.cluster.worker_spec))
+        return ()
+    return [future for future in futures if future in done]
 
 
 def _ignore_interrupts() -> None:
