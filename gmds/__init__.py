@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
+    from gmds.batch import match_collection as match_collection
     from gmds.correspondence import Candidate as Candidate
     from gmds.correspondence import Correspondence as Correspondence
     from gmds.correspondence import MatchStatus as MatchStatus
@@ -43,6 +44,7 @@ if TYPE_CHECKING:
 
 # every public name, by the module it lives in
 _NAMES = {
+    "batch": ("match_collection",),
     "correspondence": ("Candidate", "Correspondence", "MatchStatus"),
     "deformations": ("bending", "global_scale", "local_scaling", "noise", "remeshing"),
     "evaluation": ("ErrorSummary", "error_curve", "geodesic_error", "summary"),

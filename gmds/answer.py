@@ -46,11 +46,11 @@ def answer(placed: Sequence[Embedded], meta: Mapping[str, Any]) -> Correspondenc
         distortion=_distortion(best),
         status=_status(best, margin),
         candidates=candidates,
-        meta={**meta, "evidence": evidence, "solver": best.solution.status.name, "versions": _versions()},
+        meta={**meta, "evidence": evidence, "solver": best.solution.status.name, "versions": versions()},
     )
 
 
-def _versions() -> dict[str, str]:
+def versions() -> dict[str, str]:
     """What computed the numbers."""
     numeric = {name: version(name) for name in ("numpy", "scipy", "numba")}
     return {"gmds": __version__, "python": platform.python_version(), **numeric}

@@ -89,3 +89,30 @@ class SolverError(ArithmeticError):
 
     def __init__(self, message: str) -> None:
         super().__init__(f"{self.code}: {message}")
+
+
+class SurfaceFileError(FormatError):
+    """A file that should hold a measured surface does not, or is damaged."""
+
+    code = "E215"
+
+
+class BadPairList(FormatError):
+    """A list of pairs of files that can not be read; the message names the line."""
+
+    code = "E214"
+
+
+class FolderInUse(OSError):
+    """Another run is writing to the same folder."""
+
+    code = "E503"
+
+    def __str__(self) -> str:
+        return f"{self.code}: {super().__str__()}"
+
+
+class PairTimeout(Exception):
+    """A pair took longer than it was allowed to."""
+
+    code = "E504"

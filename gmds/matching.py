@@ -14,12 +14,13 @@ from gmds._validation import check_sample_count, suggest_keywords
 from gmds.answer import answer
 from gmds.candidates import Embedded, embed, finished, mirrored
 from gmds.correspondence import Correspondence
+from gmds.describing import described
 from gmds.initialization.landmarks import landmarks as from_landmarks
 from gmds.landmarks import landmark_vertices
 from gmds.losses import LeastSquares, Loss
 from gmds.pair import SurfacePair
 from gmds.proposals import Start, distinct, proposals
-from gmds.surface import measure, view_of
+from gmds.surface import Surface, measure, view_of
 
 SAMPLES = 300
 ENOUGH = 3  # landmarks that need no other starts
@@ -31,8 +32,8 @@ REFLECTED = {"preserve": (False,), "reverse": (True,), "any": (False, True)}
 @suggest_keywords
 @on_one_blas_thread
 def match(  # noqa: PLR0913 - the signature is a promise
-    source: Mesh,
-    target: Mesh,
+    source: Mesh | Surface,
+    target: Mesh | Surface,
     *,
     distance: Callable[[Mesh], Distance] | None = None,
     loss: Loss | None = None,
@@ -50,27 +51,28 @@ def match(  # noqa: PLR0913 - the signature is a promise
     vertex; the one that best keeps distances, curvature and orientation is the answer. With `distance`, a function
     Mesh -> Distance that is called on each surface brought to unit area, starts and embedding use that alone.
 
+    Either may be a `Surface`, made by `gmds.surface.measure`: what was computed of it for one match serves the next.
+
     `landmarks` are known correspondences, see `gmds.landmarks.check_landmarks`. `rng` seeds whatever is random; in the
     method as it stands nothing is. `progress(stage, fraction)` is called as work goes on. Raises `MeshError`,
     `LandmarkError` (E300-E305), `SampleCountError` (E401), `SolverError` (E403).
     """
     if orientation not in REFLECTED:
         raise ValueError(f"orientation must be 'preserve', 'reverse' or 'any', not {orientation!r}")
-    source, target = Mesh.from_object(source), Mesh.from_object(target)
+    measured, facing = (s if isinstance(s, Surface) else measure(Mesh.from_object(s)) for s in (source, target))
     loss = LeastSquares() if loss is None else loss
-    known = None if landmarks is None else landmark_vertices(landmarks, source, target)
+    known = None if landmarks is None else landmark_vertices(landmarks, measured.original, facing.original)
     report = progress or (lambda stage, fraction: None)
     started = time.perf_counter()
 
     report("measuring", 0.0)
-    measured = measure(source)
-    count = SAMPLES if n_samples is None else check_sample_count(n_samples, source)
+    count = SAMPLES if n_samples is None else check_sample_count(n_samples, measured.original)
     starts: list[Start] = list(initialization.ALL)
     if known is not None:
         starts = [from_landmarks(*known), *(starts if len(known[0]) < ENOUGH else ())]
     placed: list[Embedded] = []
     for reflected in REFLECTED[orientation]:
-        pair = SurfacePair(measured, measure(target, reflected=reflected), known, reflected)
+        pair = SurfacePair(measured, facing.reflection if reflected else facing, known, reflected)
         given = None
         if distance is None:
             ours, theirs = side_by_side(lambda surface: surface.views, (pair.source, pair.target))
@@ -91,7 +93,7 @@ def match(  # noqa: PLR0913 - the signature is a promise
     other = mirrored(placed[0])
     placed += [] if other is None else [other]
 
-    settings = {"n_samples": count, "loss": repr(loss), "orientation": orientation, "rng": rng}
+    settings = {"n_samples": count, **described(distance, loss), "orientation": orientation, "rng": rng}
     seconds = round(time.perf_counter() - started, 3)
     report("done", 1.0)
     return answer(placed, {"parameters": settings, "seconds": seconds})

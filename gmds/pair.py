@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geodesics import SurfacePoints
+from gmds.derived import derived_once
 from gmds.geometry import Geometry
 from gmds.problem import joined
 from gmds.refinement import Refiner
@@ -36,12 +37,12 @@ class SurfacePair:
     @functools.cached_property
     def outlines(self) -> tuple[Geometry, Geometry]:
         """Both surfaces with few faces."""
-        return Geometry.outline(self.source), Geometry.outline(self.target)
+        return outline(self.source), outline(self.target)
 
     @functools.cached_property
     def geometries(self) -> tuple[Geometry, Geometry]:
         """Both surfaces with all their faces."""
-        return Geometry.of(self.source), Geometry.of(self.target)
+        return geometry(self.source), geometry(self.target)
 
     @functools.cached_property
     def refiner(self) -> Refiner:
@@ -51,8 +52,8 @@ class SurfacePair:
     @functools.cached_property
     def reflections(self) -> tuple[Index | None, Index | None]:
         """A self-map that reverses orientation of the source, or else of the target, if there is one."""
-        ours = mirror(self.source, self.source.regular)
-        return ours, mirror(self.target, self.target.regular) if ours is None else None
+        ours = reversing(self.source)
+        return ours, reversing(self.target) if ours is None else None
 
     def with_landmarks(self, samples: Index, points: SurfacePoints) -> tuple[Index, SurfacePoints]:
         """Placed samples with the landmarks added, often enough that the extension heeds them."""
@@ -60,3 +61,21 @@ class SurfacePair:
             return samples, points
         ours, theirs = (np.repeat(side, WEIGHT) for side in self.known)
         return np.concatenate([samples, ours]), joined(points, SurfacePoints.at_vertices(points.mesh, theirs))
+
+
+@derived_once
+def outline(surface: Surface) -> Geometry:
+    """The surface with few faces."""
+    return Geometry.outline(surface)
+
+
+@derived_once
+def geometry(surface: Surface) -> Geometry:
+    """The surface with all its faces."""
+    return Geometry.of(surface)
+
+
+@derived_once
+def reversing(surface: Surface) -> Index | None:
+    """A self-map (n,) that reverses orientation, if there is one."""
+    return mirror(surface, surface.regular)

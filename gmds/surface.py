@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -88,13 +89,22 @@ class View:
 
     def samples(self, count: int) -> Index:
         """Farthest points (at most `count`) in commute-time distance, from the point farthest from all others."""
-        return self.cells(count).samples
+        most = max(self.sampled, default=0)
+        return self.sampled[most].samples[:count] if count <= most else self.cells(count).samples
 
     def cells(self, count: int) -> Cells:
         """These samples with their Voronoi cells."""
-        distance = self.distance(SAMPLING_FUNCTIONS)
-        first = int((distance.embedding**2).sum(axis=1).argmax())
-        return farthest_point_cells(distance, min(count, len(self.usable)), first)
+        count = min(count, len(self.usable))
+        if count not in self.sampled:
+            distance = self.distance(SAMPLING_FUNCTIONS)
+            first = int((distance.embedding**2).sum(axis=1).argmax())
+            self.sampled[count] = farthest_point_cells(distance, count, first)
+        return self.sampled[count]
+
+    @functools.cached_property
+    def sampled(self) -> dict[int, Cells]:
+        """The cells that were asked for, by the number of samples: those of fewer begin those of more."""
+        return {}
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,6 +152,16 @@ class Surface:
     def areas(self) -> Array:
         """Area (n,) around each vertex."""
         return self.regular.spectrum.mass
+
+    @functools.cached_property
+    def reflection(self) -> Surface:
+        """The mirror image of the surface."""
+        return measure(self.original, reflected=True)
+
+    @functools.cached_property
+    def derived(self) -> dict[str, Any]:
+        """What `gmds.derived` keeps here, by name."""
+        return {}
 
     @functools.cached_property
     def squashed_curvature(self) -> Array:

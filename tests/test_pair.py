@@ -44,7 +44,7 @@ def test_an_animal_has_a_reflection_that_turns_it_over_and_undoes_itself() -> No
 
 
 def test_where_the_source_has_no_reflection_that_of_the_target_is_sought(monkeypatch: pytest.MonkeyPatch) -> None:
-    source, target, flip = surface(bumpy()), surface(animal()), np.arange(600)[::-1]
+    source, target, flip = measure(bumpy()), measure(animal()), np.arange(600)[::-1]
     seen = []
 
     def mirror(one: Surface, view: View) -> np.ndarray | None:
@@ -55,6 +55,7 @@ def test_where_the_source_has_no_reflection_that_of_the_target_is_sought(monkeyp
     ours, theirs = SurfacePair(source, target).reflections
     assert ours is None and theirs is flip
     assert seen == [(source, source.regular), (target, target.regular)]
+    assert SurfacePair(target, source).reflections[0] is flip and len(seen) == 2  # once is enough
 
 
 def test_both_surfaces_are_seen_whole_and_in_outline() -> None:

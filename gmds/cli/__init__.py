@@ -11,6 +11,7 @@ main = LazyGroup(
     command_names=(
         "demo",
         "match",
+        "batch",
         "evaluate",
         "compare",
         "symmetry",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -21,30 +22,36 @@ distance_option = click.option("--distance", type=click.Choice(DISTANCES), help=
 loss_option = click.option("--loss", type=click.Choice(LOSSES), help="How the misfit of distances is added up.")
 
 
-def chosen_distance(metric: str | None, distance: str | None) -> Callable[[Mesh], Any] | None:
-    """The function Mesh -> Distance that two names stand for; None, the default of match, when neither is given."""
+@dataclass(frozen=True)
+class ChosenDistance:
+    """The function Mesh -> Distance that the names of a metric and of a distance stand for."""
+
+    metric: str
+    distance: str
+
+    def __call__(self, mesh: Mesh) -> Any:
+        import geodesics
+        from gmds.candidates import TIME
+        from gmds.surface import EIGENFUNCTIONS
+
+        measure = getattr(geodesics, self.metric.replace("-", "_"))
+        if self.metric == "scale-invariant":
+            measure = functools.partial(measure, smoothing=SMOOTHING)
+        if self.distance == "geodesic":
+            return geodesics.GeodesicDistance(measure(mesh))
+        spectral: dict[str, Callable[[geodesics.Spectrum], Any]] = {
+            "biharmonic": geodesics.BiharmonicDistance,
+            "commute-time": geodesics.CommuteTimeDistance,
+            "diffusion": lambda spectrum: geodesics.DiffusionDistance(spectrum, TIME),  # the time that match compares
+        }
+        return spectral[self.distance](geodesics.eigenpairs(measure(mesh), min(EIGENFUNCTIONS, mesh.n_vertices - 1)))
+
+
+def chosen_distance(metric: str | None, distance: str | None) -> ChosenDistance | None:
+    """The distance that two names stand for; None, the default of match, when neither is given."""
     if metric is None and distance is None:
         return None
-    import geodesics
-    from gmds.candidates import TIME
-    from gmds.surface import EIGENFUNCTIONS
-
-    measure = getattr(geodesics, (metric or "scale-invariant").replace("-", "_"))
-    if metric in (None, "scale-invariant"):
-        measure = functools.partial(measure, smoothing=SMOOTHING)
-    spectral: dict[str, Callable[[geodesics.Spectrum], Any]] = {
-        "biharmonic": geodesics.BiharmonicDistance,
-        "commute-time": geodesics.CommuteTimeDistance,
-        "diffusion": lambda spectrum: geodesics.DiffusionDistance(spectrum, TIME),  # the time that match compares
-    }
-
-    def build(mesh: Mesh) -> Any:
-        if distance == "geodesic":
-            return geodesics.GeodesicDistance(measure(mesh))
-        spectrum = geodesics.eigenpairs(measure(mesh), min(EIGENFUNCTIONS, mesh.n_vertices - 1))
-        return spectral[distance or "diffusion"](spectrum)
-
-    return build
+    return ChosenDistance(metric or "scale-invariant", distance or "diffusion")
 
 
 def chosen_loss(name: str | None) -> Any:

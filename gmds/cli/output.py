@@ -31,14 +31,20 @@ def note(message: str) -> None:
 
 
 @contextmanager
-def progress_bar(title: str) -> Iterator[Progress]:
-    """A bar on stderr, moved by the function the block gets; nothing shows unless stderr is a terminal."""
+def progress_bar(title: str, *, remaining: bool = False) -> Iterator[Progress]:
+    """A bar on stderr, moved by the function the block gets; nothing shows unless stderr is a terminal.
+
+    `remaining`: whether the time that is left is shown as well, as the speed of the last half hour foretells it.
+    """
     from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
     console = Console(stderr=True)
-    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bars:
+    left = (TextColumn("left"), TimeRemainingColumn()) if remaining else ()
+    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn(), *left)
+    with Progress(
+        *columns, console=console, transient=True, disable=not console.is_terminal, speed_estimate_period=1800
+    ) as bars:
         task = bars.add_task(title, total=1.0)
 
         def progress(stage: str, fraction: float) -> None:

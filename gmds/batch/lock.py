@@ -1,0 +1,48 @@
+"""One run at a time in a folder."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import socket
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import IO
+
+from gmds.errors import FolderInUse
+
+NAME = ".lock"
+
+
+@contextlib.contextmanager
+def only_run(folder: Path) -> Iterator[None]:
+    """The block, while no other run is inside one for the same folder; `FolderInUse` (E503) at once if one is.
+
+    The system frees the lock when the process ends, however it ends: nothing is ever left behind that has to be removed
+    by hand. On a network drive it holds between machines if the drive has locks at all; if not, that is an `OSError`.
+    """
+    with (folder / NAME).open("a+", encoding="utf-8") as file:
+        try:
+            _lock(file)
+        except (BlockingIOError, PermissionError) as error:
+            file.seek(0)
+            who = file.read(200).strip() or "another process"
+            raise FolderInUse(f"{who} is at work in {folder}; wait for it, or choose another folder") from error
+        file.truncate(0)
+        file.write(f"process {os.getpid()} on {socket.gethostname()}, since {time.strftime('%Y-%m-%d %H:%M:%S')},")
+        file.flush()
+        yield
+
+
+def _lock(file: IO[str]) -> None:
+    if sys.platform == "win32":  # bytes far behind the text, which others are to read
+        import msvcrt
+
+        file.seek(1 << 20)
+        msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
+    else:
+        import fcntl
+
+        fcntl.flock(file.fileno(), fcntl.LOCK_EX | fcntl.LOCK_NB)

@@ -1,0 +1,70 @@
+"""What happened, a line of JSON each, and the summary of how things stand."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import time
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from geodesics.io import atomic_write
+from gmds.batch.records import PairRecord
+
+FORMULA = ("=", "+", "-", "@", "\t", "\r")
+
+
+class Manifest:
+    """A file that every run appends to: `run`, `shape`, `pair` and `end` events with times, tries and failures.
+
+    Each line is JSON on its own; a line that was cut short by the end of a process harms no other.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._file = os.open(path, os.O_WRONLY | os.O_APPEND | os.O_CREAT, 0o666)
+        self._line = "\n" if _is_cut_short(path) else ""
+
+    def tell(self, event: str, content: Mapping[str, Any]) -> None:
+        """Add an event, with the time."""
+        text = json.dumps({"event": event, "time": time.strftime("%Y-%m-%dT%H:%M:%S%z"), **content}, allow_nan=False)
+        os.write(self._file, f"{self._line}{text}\n".encode())
+        self._line = ""
+
+    def close(self) -> None:
+        """No more events."""
+        os.close(self._file)
+
+
+def _is_cut_short(path: Path) -> bool:
+    with path.open("rb") as stream:
+        if stream.seek(0, os.SEEK_END) == 0:
+            return False
+        stream.seek(-1, os.SEEK_END)
+        return stream.read(1) != b"\n"
+
+
+def event(record: Any) -> dict[str, Any]:
+    """What the manifest tells of a record: what is known of it."""
+    return {key: value for key, value in asdict(record).items() if value is not None and value != ""}
+
+
+def write_summary(path: Path, records: Iterable[PairRecord]) -> None:
+    """One row a pair, atomically; no row says anything that an undisturbed run would say differently."""
+    text = io.StringIO(newline="")
+    writer = csv.DictWriter(text, list(PairRecord("", "").cells()), lineterminator="\n")
+    writer.writeheader()
+    for record in records:
+        writer.writerow({name: _cell(value) for name, value in record.cells().items()})
+    with atomic_write(path) as stream:
+        stream.write(text.getvalue().encode("utf-8", "replace"))
+
+
+def _cell(value: Any) -> str:
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    text = "" if value is None else " ".join(str(value).split())
+    return f"'{text}" if text.startswith(FORMULA) else text

@@ -1,0 +1,188 @@
+"""match_collection(): all pairs that are asked for, side by side, into a folder that a later run can go on with."""
+
+from __future__ import annotations
+
+import contextlib
+import platform
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from gmds._validation import check_keys
+from gmds.answer import versions
+from gmds.batch.agreement import agreement, write_cycles
+from gmds.batch.collection import Collection, Given
+from gmds.batch.cycles import Consistency
+from gmds.batch.engine import local_client, outcomes
+from gmds.batch.kept import Expected, pair_record
+from gmds.batch.lock import only_run
+from gmds.batch.manifest import Manifest, event, write_summary
+from gmds.batch.pairs import Choice, Pairs
+from gmds.batch.records import Failure, PairRecord, ShapeRecord
+from gmds.batch.store import Store
+from gmds.batch.tasks import PairJob, ShapeJob, match_pair, measure_shape
+from gmds.describing import described, is_lasting
+from gmds.losses import LeastSquares
+from gmds.matching import SAMPLES
+
+Progress = Callable[[str, float], None]
+
+OPTIONS = ("distance", "loss", "n_samples", "orientation", "rng")
+LEFT_OVER = ("*/.gmds-*.tmp", "pairs/.*.late")  # by processes that were killed
+UNDONE = ("failed", "missing")
+MEASURING, CYCLES = 0.1, 0.02  # of the progress
+
+
+@dataclass(frozen=True, eq=False)
+class Batch:
+    """What came of a collection: a record of every shape and of every pair, in the order of the pairs.
+
+    `consistency`: whether the maps agree around triangles of shapes.
+    """
+
+    output: Path
+    shapes: Mapping[str, ShapeRecord]
+    pairs: tuple[PairRecord, ...]
+    consistency: Consistency
+
+    @property
+    def failed(self) -> tuple[PairRecord, ...]:
+        """Pairs without a map."""
+        return tuple(pair for pair in self.pairs if pair.status in UNDONE)
+
+    def map_file(self, pair: PairRecord) -> Path:
+        """Where the map of a pair is."""
+        return self.output / "pairs" / f"{pair.name}.npz"
+
+
+def match_collection(
+    shapes: Given,
+    output: str | Path,
+    *,
+    pairs: Choice | Pairs | None = None,
+    timeout: float | None = None,
+    client: Any = None,
+    progress: Progress | None = None,
+    **options: Any,
+) -> Batch:
+    """Match many pairs of shapes, on all processors or on a cluster, and keep the maps in the folder `output`.
+
+    `shapes`: a folder of meshes, a list file of pairs `A,B`, paths, or a mapping from names to meshes or paths.
+    `pairs`: which to match, `gmds.batch.all_pairs` unless a list says so; or `consecutive`, `with_template(name)`,
+    `both_ways(...)` of these, or pairs of names. `options` are those of `match`: distance, loss, n_samples,
+    orientation, rng. `timeout`: seconds that a pair may take. `client`: a `distributed.Client`, or what
+    `gmds.batch.local_client(workers)` or `remote_client(address)` returns; all processors of this machine by default (a
+    script then needs `if __name__ == "__main__":`). Workers must see `output` under the same path.
+
+    Each shape is measured once and kept. Maps that are there and whole, of these meshes, parameters and version, are
+    not made again. What fails is told in the records, with a code, and the rest goes on; a pair during which three
+    workers died is given up. One run at a time works in a folder: the second raises `FolderInUse` (E503). Raises
+    `FormatError`, `ValueError` or `OSError` when there is nothing to match, `MissingExtra` (E602).
+    """
+    check_keys(options, OPTIONS, "match_collection()")
+    if not is_lasting(options.get("distance")):
+        raise ValueError("the distance needs a name that lasts: a function of a module, or functools.partial of one")
+    collection = Collection.of(shapes, pairs)
+    folder = Path(output).absolute()
+    (folder / "pairs").mkdir(parents=True, exist_ok=True)
+    (folder / "shapes").mkdir(exist_ok=True)
+    with only_run(folder), contextlib.ExitStack() as stack:
+        if not hasattr(client, "submit"):
+            client = stack.enter_context(client or local_client())
+        run = _Run(collection, folder, options, timeout, progress or (lambda stage, fraction: None))
+        stack.callback(run.manifest.close)
+        stack.callback(run.summarise)
+        run.work(client)
+        run.agree()
+        return run.result()
+
+
+@dataclass(eq=False)
+class _Run:
+    """A run on its way: records fill up as workers report."""
+
+    collection: Collection
+    folder: Path
+    options: Mapping[str, Any]
+    timeout: float | None
+    progress: Progress
+    shapes: dict[str, ShapeRecord] = field(default_factory=dict)
+    pairs: dict[tuple[str, str], PairRecord] = field(default_factory=dict)
+    consistency: Consistency = field(default_factory=lambda: Consistency(()))
+
+    def __post_init__(self) -> None:
+        for left in (path for kind in LEFT_OVER for path in self.folder.glob(kind)):
+            left.unlink(missing_ok=True)
+        self.manifest = Manifest(self.folder / "manifest.jsonl")
+        self.parameters = {
+            **described(self.options.get("distance"), self.options.get("loss") or LeastSquares()),
+            "orientation": self.options.get("orientation", "preserve"),
+            "rng": self.options.get("rng", 0),
+        }
+        self.store = Store(self.folder / "shapes")
+
+    def work(self, client: Any) -> None:
+        """Measure what is to be measured, match what is to be matched."""
+        told = {"parameters": self.parameters | {"n_samples": self.options.get("n_samples")}, "versions": versions()}
+        self.manifest.tell("run", {**told, "host": platform.node(), "pairs": len(self.collection.pairs)})
+        mirrored = self.parameters["orientation"] != "preserve"
+        jobs = (ShapeJob(shape, self.store, mirrored) for shape in self.collection.shapes.values())
+        for shape_job, record in outcomes(client, measure_shape, jobs):
+            name = shape_job.shape.name
+            self.shapes[name] = ShapeRecord(name, failure=record) if isinstance(record, Failure) else record
+            self.manifest.tell("shape", {"origin": shape_job.shape.place, **event(self.shapes[name])})
+            self.progress(f"measured {name}", MEASURING * len(self.shapes) / len(self.collection.shapes))
+        for pair_job, found in outcomes(client, match_pair, self._missing()):
+            names = pair_job.source.name, pair_job.target.name
+            self._add(PairRecord(*names, "failed", failure=found) if isinstance(found, Failure) else found)
+
+    def _missing(self) -> Iterator[PairJob]:
+        """Jobs for the pairs whose maps are not there; the others are recorded on the way."""
+        for source, target in self.collection.pairs:
+            ours, theirs = self.shapes[source], self.shapes[target]
+            broken = next((shape for shape in (ours, theirs) if shape.failure is not None), None)
+            if broken is not None and broken.failure is not None:
+                failure = Failure(broken.failure.code, f"{broken.name}: {broken.failure.reason}")
+                self._add(PairRecord(source, target, "failed", failure=failure))
+                continue
+            path, expected = self.folder / "pairs" / f"{source}__{target}.npz", self._expected(ours, theirs)
+            found = pair_record(path, source, target, expected)
+            if found is None:
+                yield PairJob(ours, theirs, self.store, path, expected, self.options, self.timeout)
+            else:
+                self._add(found)
+
+    def _expected(self, source: ShapeRecord, target: ShapeRecord) -> Expected:
+        count = self.options.get("n_samples")
+        parameters = {**self.parameters, "n_samples": min(SAMPLES, source.usable) if count is None else count}
+        meshes = {"source": {"sha256": source.sha256}, "target": {"sha256": target.sha256}}
+        return Expected({"parameters": parameters, "versions": {"gmds": versions()["gmds"]}, **meshes})
+
+    def _add(self, record: PairRecord) -> None:
+        self.pairs[record.source, record.target] = record
+        self.manifest.tell("pair", event(record))
+        share = len(self.pairs) / len(self.collection.pairs)
+        self.progress(
+            f"{len(self.pairs)} of {len(self.collection.pairs)} pairs", MEASURING + (1 - MEASURING - CYCLES) * share
+        )
+
+    def result(self) -> Batch:
+        """How things stand."""
+        rows = tuple(self.pairs.get(pair) or PairRecord(*pair) for pair in self.collection.pairs)
+        return Batch(self.folder, dict(self.shapes), rows, self.consistency)
+
+    def agree(self) -> None:
+        """Take the maps around triangles of shapes, and blame those that lead astray."""
+        done = [pair for pair in self.result().pairs if pair.status not in UNDONE]
+        report = lambda share: self.progress("going around triangles", 1 - CYCLES + CYCLES * share)  # noqa: E731
+        self.consistency = agreement(self.folder / "pairs", self.store, self.shapes, done, report)
+        write_cycles(self.folder / "cycles.csv", self.consistency)
+        for pair, blame in self.consistency.blame.items():
+            self.pairs[pair] = replace(self.pairs[pair], blame=blame)
+
+    def summarise(self) -> None:
+        """Write how things stand, also when the run was interrupted."""
+        batch = self.result()
+        write_summary(self.folder / "summary.csv", batch.pairs)
+        self.manifest.tell("end", {"done": len(batch.pairs) - len(batch.failed), "failed": len(batch.failed)})

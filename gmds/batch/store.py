@@ -1,0 +1,91 @@
+"""Measured surfaces on disk, under a digest of all that goes into them: whoever asks second finds them there."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics import Mesh
+from geodesics.threads import on_one_blas_thread
+from gmds import refinement, surface, surface_file, upsampling
+from gmds.answer import versions
+from gmds.batch.collection import Shape
+from gmds.batch.records import ShapeRecord
+from gmds.errors import SurfaceFileError
+from gmds.map_file import fingerprint
+from gmds.surface import Surface, measure
+from gmds.surface_file import read_surface, write_surface
+
+# what a stored surface depends on besides the mesh
+PARAMETERS = {
+    "format": surface_file.VERSION,
+    "versions": versions(),
+    "functions": (surface.EIGENFUNCTIONS, surface.DETAIL_FUNCTIONS, surface.SAMPLING_FUNCTIONS),
+    "metrics": (surface.EXPONENTS, surface.SMOOTHING, surface.DETAIL),
+    "samples": (upsampling.TARGET_SAMPLES, refinement.CARRIERS, refinement.GOALS),
+}
+
+
+@dataclass(frozen=True)
+class Store:
+    """A folder with a file for every measured surface."""
+
+    folder: Path
+
+    def keep(self, shape: Shape, mirrored: bool = False) -> ShapeRecord:
+        """Measure a shape and write it, unless that was done before; with its mirror image where that is asked for.
+
+        Raises `MeshError`, `FormatError`, `OSError`, `EigensolverFailed`.
+        """
+        mesh = shape.mesh()
+        print_ = fingerprint(mesh)
+        key = digest(print_["sha256"])
+        kept = [self._kept(mesh, key, reflected) for reflected in ((False, True) if mirrored else (False,))]
+        usable = len(read_surface(self._path(key, False)).regular.usable)
+        return ShapeRecord(
+            shape.name, print_["vertices"], print_["faces"], usable, print_["sha256"], key, kept=all(kept)
+        )
+
+    def surface(self, record: ShapeRecord) -> Surface:
+        """A stored surface. Raises `SurfaceFileError` (E215) when its file was damaged since; the next run mends it."""
+        found = read_surface(self._path(record.key, False))
+        if self._path(record.key, True).exists():
+            vars(found)["reflection"] = read_surface(self._path(record.key, True))
+        return found
+
+    def outside(self, record: ShapeRecord, count: int) -> tuple[Mesh, NDArray[np.int64]]:
+        """The mesh of a stored surface, and `count` of its vertices evenly spread, without all the rest."""
+        with np.load(self._path(record.key, False), allow_pickle=False) as archive:
+            most = max(
+                (name for name in archive if name.startswith("detail_samples_")),
+                key=lambda name: int(name.rpartition("_")[2]),
+            )
+            return Mesh(archive["original_vertices"], archive["original_faces"]), archive[most][:count]
+
+    def _kept(self, mesh: Mesh, key: str, reflected: bool) -> bool:
+        path = self._path(key, reflected)
+        try:
+            read_surface(path)
+            return True
+        except (SurfaceFileError, FileNotFoundError):
+            _write(path, mesh, reflected)
+            return False
+
+    def _path(self, key: str, reflected: bool) -> Path:
+        return self.folder / f"{key}{'-mirrored' if reflected else ''}.npz"
+
+
+def digest(sha256: str) -> str:
+    """The name of a stored surface: a digest of its mesh, the parameters of measuring, and the versions of it all."""
+    told = json.dumps({**PARAMETERS, "mesh": sha256}, sort_keys=True)
+    return hashlib.sha256(told.encode("utf-8")).hexdigest()[:32]
+
+
+@on_one_blas_thread
+def _write(path: Path, mesh: Mesh, reflected: bool) -> None:
+    write_surface(path, measure(mesh, reflected=reflected))

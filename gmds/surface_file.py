@@ -1,0 +1,108 @@
+"""A measured surface on disk: everything about it that takes long to compute, readable with numpy alone.
+
+Members: `original_*`, `mesh_*`: vertices and faces of the mesh, and of its largest part turned and resized;
+`face_index`; for each view (`view0`, `view1`, `detail`) its mass, eigenvalues, eigenfunctions and cells of farthest
+points; `curvature`; `outline_*`: vertices, faces and origin, unless the outline is the whole; `reversing`, if there is
+such a self-map. Numbers keep all their bits: surfaces from files are matched as the meshes are.
+"""
+
+from __future__ import annotations
+
+import os
+import zipfile
+import zlib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics import Mesh, Spectrum
+from geodesics.io import atomic_write
+from geodesics.sampling import Cells
+from gmds.errors import SurfaceFileError
+from gmds.geometry import Geometry
+from gmds.pair import outline, reversing
+from gmds.refinement import CARRIERS, GOALS
+from gmds.surface import Surface, View
+from gmds.upsampling import TARGET_SAMPLES
+
+VERSION = 1
+
+Arrays = dict[str, NDArray[Any]]
+
+
+def write_surface(path: str | os.PathLike[str], surface: Surface) -> None:
+    """Compute what `match` will want to know of the surface, and write it atomically; raises `OSError`."""
+    with atomic_write(path) as stream:
+        np.savez(stream, **_arrays(surface))  # type: ignore[arg-type]
+
+
+def read_surface(path: str | os.PathLike[str]) -> Surface:
+    """The surface in a file. Raises `SurfaceFileError` (E215) when it is not whole, `OSError` when it is not there."""
+    path = Path(path)
+    with path.open("rb") as stream:
+        try:
+            with np.load(stream, allow_pickle=False) as archive:
+                return _surface(dict(archive))
+        except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, OSError, ValueError, KeyError) as error:
+            raise SurfaceFileError(f"{path} is not a readable surface ({error}); remove it") from error
+
+
+def _arrays(surface: Surface) -> Arrays:
+    found: Arrays = {"version": np.array(VERSION), "face_index": surface.face_index}
+    for name, mesh in (("original", surface.original), ("mesh", surface.mesh)):
+        found |= {f"{name}_vertices": mesh.vertices, f"{name}_faces": mesh.faces}
+    *others, regular = surface.views
+    for number, view in enumerate(others):
+        view.samples(TARGET_SAMPLES)
+        found |= _view_arrays(f"view{number}", view)
+    regular.samples(GOALS)
+    regular.cells(CARRIERS)
+    found |= _view_arrays("detail", View(surface.mesh, surface.detail.spectrum), regular.sampled)
+    found["curvature"] = surface.squashed_curvature
+    few = outline(surface)
+    if few.mesh is not surface.mesh:
+        found |= {"outline_vertices": few.mesh.vertices, "outline_faces": few.mesh.faces, "outline_origin": few.origin}
+    turned = reversing(surface)
+    return found if turned is None else found | {"reversing": turned}
+
+
+def _view_arrays(name: str, view: View, sampled: dict[int, Cells] | None = None) -> Arrays:
+    spectrum = view.spectrum
+    found = {"mass": spectrum.mass, "values": spectrum.eigenvalues, "functions": spectrum.eigenfunctions}
+    for count, cells in (view.sampled if sampled is None else sampled).items():
+        found |= {f"{part}_{count}": array for part, array in cells._asdict().items()}
+    return {f"{name}_{part}": array for part, array in found.items()}
+
+
+def _surface(arrays: Arrays) -> Surface:
+    if arrays["version"] != VERSION:
+        raise ValueError(f"version {arrays['version']}, not {VERSION}")
+    original, mesh = (Mesh(arrays[f"{name}_vertices"], arrays[f"{name}_faces"]) for name in ("original", "mesh"))
+    surface = Surface(original, mesh, arrays["face_index"])
+    others = [_view(arrays, f"view{i}", mesh) for i in range(sum(f"view{i}_mass" in arrays for i in range(9)))]
+    detail = _view(arrays, "detail", mesh)
+    vars(surface)["detail"] = View(mesh, detail.spectrum)
+    surface.regular.sampled.update(detail.sampled)
+    vars(surface)["views"] = (*others, surface.regular)
+    vars(surface)["squashed_curvature"] = arrays["curvature"]
+    surface.derived["outline"] = _outline(arrays, surface)
+    surface.derived["reversing"] = arrays.get("reversing")
+    return surface
+
+
+def _view(arrays: Arrays, name: str, mesh: Mesh) -> View:
+    view = View(mesh, Spectrum(mesh, *(arrays[f"{name}_{part}"] for part in ("mass", "values", "functions"))))
+    start = f"{name}_samples_"
+    for count in sorted(int(key.removeprefix(start)) for key in arrays if key.startswith(start)):
+        view.sampled[count] = Cells(*(arrays[f"{name}_{part}_{count}"] for part in Cells._fields))
+    return view
+
+
+def _outline(arrays: Arrays, surface: Surface) -> Geometry:
+    if "outline_origin" not in arrays:
+        return Geometry.of(surface)
+    origin = arrays["outline_origin"]
+    mesh = Mesh(arrays["outline_vertices"], arrays["outline_faces"])
+    return Geometry(mesh, origin, surface.squashed_curvature[origin])
