@@ -46,18 +46,12 @@ class Geometry:
     @classmethod
     def outline(cls, surface: Surface, n_faces: int = OUTLINE_FACES) -> Geometry:
         """The surface with about `n_faces` faces, by collapsing edges; the whole where that can not be done."""
-        import igl
-
-        sound = surface.mesh.faces[proper_faces(surface.mesh.faces)]
-        used, faces = np.unique(sound, return_inverse=True)
-        faces = faces.reshape(-1, 3).astype(np.int64)
-        if len(faces) <= n_faces * 1.25 or not _can_be_collapsed(faces):
+        mesh = decimated(surface.mesh, n_faces)
+        if mesh is None:
             return cls.of(surface)
-        v, f, *_ = igl.decimate(np.ascontiguousarray(surface.mesh.vertices[used]), faces, n_faces)
-        if len(f) == 0 or len(f) > 2 * n_faces:
-            return cls.of(surface)
-        origin = used[cKDTree(surface.mesh.vertices[used]).query(v)[1]]
-        return cls(Mesh(v, np.asarray(f, dtype=np.int64)), origin, surface.squashed_curvature[origin])
+        used = np.unique(surface.mesh.faces[proper_faces(surface.mesh.faces)])
+        origin = used[cKDTree(surface.mesh.vertices[used]).query(mesh.vertices)[1]]
+        return cls(mesh, origin, surface.squashed_curvature[origin])
 
     @functools.cached_property
     def usable(self) -> Index:
@@ -136,6 +130,18 @@ class Geometry:
         """Where points (p, 3) on the surface go when its vertices go to y (n, 3)."""
         face, weight, _ = closest_on_triangles(points, self.mesh.vertices, self.mesh.faces)
         return np.asarray(np.einsum("pk,pkj->pj", weight, y[self.mesh.faces[face]]), dtype=np.float64)
+
+
+def decimated(mesh: Mesh, n_faces: int) -> Mesh | None:
+    """A mesh of about `n_faces` faces, by collapsing edges; None if it has few more, or that can not be done."""
+    import igl
+
+    used, faces = np.unique(mesh.faces[proper_faces(mesh.faces)], return_inverse=True)
+    faces = faces.reshape(-1, 3).astype(np.int64)
+    if len(faces) <= n_faces * 1.25 or not _can_be_collapsed(faces):
+        return None
+    v, f, *_ = igl.decimate(np.ascontiguousarray(mesh.vertices[used]), faces, n_faces)
+    return None if len(f) == 0 or len(f) > 2 * n_faces else Mesh(v, np.asarray(f, dtype=np.int64))
 
 
 def _can_be_collapsed(faces: Index) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any, Literal
 
 from geodesics import Distance, Mesh
@@ -13,6 +14,7 @@ from gmds import initialization
 from gmds._validation import check_sample_count, suggest_keywords
 from gmds.answer import answer
 from gmds.candidates import Embedded, embed, finished, mirrored
+from gmds.coarsening import Carrier
 from gmds.correspondence import Correspondence
 from gmds.describing import described
 from gmds.initialization.landmarks import landmarks as from_landmarks
@@ -51,6 +53,9 @@ def match(  # noqa: PLR0913 - the signature is a promise
     vertex; the one that best keeps distances, curvature and orientation is the answer. With `distance`, a function
     Mesh -> Distance that is called on each surface brought to unit area, starts and embedding use that alone.
 
+    A surface with more than 8,000 vertices is matched as a copy with some 5,000, and the map is carried to all of them,
+    unless a `distance` is given.
+
     Either may be a `Surface`, made by `gmds.surface.measure`: what was computed of it for one match serves the next.
 
     `landmarks` are known correspondences, see `gmds.landmarks.check_landmarks`. `rng` seeds whatever is random; in the
@@ -62,30 +67,19 @@ def match(  # noqa: PLR0913 - the signature is a promise
     measured, facing = (s if isinstance(s, Surface) else measure(Mesh.from_object(s)) for s in (source, target))
     loss = LeastSquares() if loss is None else loss
     known = None if landmarks is None else landmark_vertices(landmarks, measured.original, facing.original)
+    count = SAMPLES if n_samples is None else check_sample_count(n_samples, measured.original)
     report = progress or (lambda stage, fraction: None)
     started = time.perf_counter()
 
     report("measuring", 0.0)
-    count = SAMPLES if n_samples is None else check_sample_count(n_samples, measured.original)
-    starts: list[Start] = list(initialization.ALL)
-    if known is not None:
-        starts = [from_landmarks(*known), *(starts if len(known[0]) < ENOUGH else ())]
+    carrier = None if distance is not None else Carrier.of(measured, facing)
+    if carrier is not None:
+        known = None if known is None else carrier.landmarks(known)
+        measured, facing = carrier.copies
     placed: list[Embedded] = []
     for reflected in REFLECTED[orientation]:
         pair = SurfacePair(measured, facing.reflection if reflected else facing, known, reflected)
-        given = None
-        if distance is None:
-            ours, theirs = side_by_side(lambda surface: surface.views, (pair.source, pair.target))
-            views = list(zip(ours, theirs, strict=True))
-        else:
-            distances = distance(pair.source.mesh), distance(pair.target.mesh)
-            given = (view_of(distances[0], pair.source), view_of(distances[1], pair.target)), distances
-            views = [given[0]]
-        count = min(count, len(pair.source.regular.usable))
-        report("proposing", 0.2)
-        chosen = distinct(proposals(pair, views, starts), pair.outlines[0], REFINED, UNLIKELY)
-        report("embedding", 0.5)
-        placed += side_by_side(functools.partial(embed, pair, loss=loss, count=count, given=given), chosen)
+        placed += _embedded(pair, distance, loss, count, report)
     placed.sort(key=lambda e: e.evidence.loss)
     report("refining", 0.7)
     if distance is None:
@@ -94,6 +88,33 @@ def match(  # noqa: PLR0913 - the signature is a promise
     placed += [] if other is None else [other]
 
     settings = {"n_samples": count, **described(distance, loss), "orientation": orientation, "rng": rng}
-    seconds = round(time.perf_counter() - started, 3)
+    found = answer(placed, {"parameters": settings})
+    found = found if carrier is None else carrier.carried(found)
     report("done", 1.0)
-    return answer(placed, {"parameters": settings, "seconds": seconds})
+    return replace(found, meta={**found.meta, "seconds": round(time.perf_counter() - started, 3)})
+
+
+def _embedded(
+    pair: SurfacePair,
+    distance: Callable[[Mesh], Distance] | None,
+    loss: Loss,
+    count: int,
+    report: Callable[[str, float], None],
+) -> list[Embedded]:
+    """The few maps of a pair that deserve it, their samples placed by the solver."""
+    given = None
+    if distance is None:
+        ours, theirs = side_by_side(lambda surface: surface.views, (pair.source, pair.target))
+        views = list(zip(ours, theirs, strict=True))
+    else:
+        distances = distance(pair.source.mesh), distance(pair.target.mesh)
+        given = (view_of(distances[0], pair.source), view_of(distances[1], pair.target)), distances
+        views = [given[0]]
+    starts: list[Start] = list(initialization.ALL)
+    if pair.known is not None:
+        starts = [from_landmarks(*pair.known), *(starts if len(pair.known[0]) < ENOUGH else ())]
+    report("proposing", 0.2)
+    chosen = distinct(proposals(pair, views, starts), pair.outlines[0], REFINED, UNLIKELY)
+    report("embedding", 0.5)
+    count = min(count, len(pair.source.regular.usable))
+    return side_by_side(functools.partial(embed, pair, loss=loss, count=count, given=given), chosen)

@@ -13,7 +13,8 @@ import pytest
 import scipy.linalg
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from geodesics.threads import on_one_blas_thread, one_blas_thread
+from geodesics.threads import on_one_blas_thread, one_blas_thread, side_by_side
+from geodesics.threads import threads as allowed
 
 
 def threads() -> set[int]:
@@ -64,3 +65,21 @@ def test_a_map_does_not_depend_on_the_number_of_threads() -> None:
         )
         digests.add(hashlib.sha256(done.stdout).hexdigest())
     assert len(digests) == 1
+
+
+@pytest.mark.parametrize("count", ["1", "3"])
+def test_side_by_side_keeps_the_order_and_the_errors(monkeypatch: pytest.MonkeyPatch, count: str) -> None:
+    monkeypatch.setenv("GMDS_THREADS", count)
+    assert allowed() == int(count)
+    assert side_by_side(lambda x: x * x, range(20)) == [x * x for x in range(20)]
+    assert side_by_side(str, []) == []
+    with pytest.raises(ZeroDivisionError):
+        side_by_side(lambda x: 1 // x, [1, 0, 2])
+
+
+def test_a_number_of_threads_that_is_none_is_not_heeded(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("GMDS_THREADS", raising=False)
+    default = allowed()
+    for word in ("0", "-2", "many", ""):
+        monkeypatch.setenv("GMDS_THREADS", word)
+        assert allowed() == default >= 1

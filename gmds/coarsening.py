@@ -1,0 +1,116 @@
+"""Large surfaces: matched as copies with fewer vertices, and the map carried back to all of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from geodesics import SurfacePoints
+from geodesics.closest import closest_on_triangles
+from geodesics.threads import threads
+from gmds.answer import on_original
+from gmds.correspondence import Candidate, Correspondence
+from gmds.derived import derived_once
+from gmds.geometry import Geometry, decimated
+from gmds.orientation import orientation_score
+from gmds.surface import Surface, measure
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+WORKING = 5000  # vertices of the copy
+LARGE = 8000  # vertices up to which a surface is matched as it is
+
+
+@derived_once
+def coarse(surface: Surface) -> Surface:
+    """A copy with some `WORKING` vertices of a surface with more than `LARGE`; itself where that can not be made.
+
+    The mesh it was measured from, its `original`, lies where that of the surface does.
+    """
+    if len(np.unique(surface.mesh.faces)) <= LARGE:
+        return surface
+    mesh = decimated(surface.mesh, 2 * WORKING)
+    return surface if mesh is None else measure(mesh)
+
+
+@dataclass(frozen=True, eq=False)
+class Carrier:
+    """Carries maps of the copies of two surfaces to the surfaces themselves."""
+
+    source: Surface
+    target: Surface
+
+    @classmethod
+    def of(cls, source: Surface, target: Surface) -> Carrier | None:
+        """The carrier of two surfaces; None where there are no copies."""
+        carrier = cls(source, target)
+        return None if carrier.copies == (source, target) else carrier
+
+    @property
+    def copies(self) -> tuple[Surface, Surface]:
+        """What is matched instead of the surfaces."""
+        return coarse(self.source), coarse(self.target)
+
+    def landmarks(self, known: tuple[Index, Index]) -> tuple[Index, Index]:
+        """Corresponding vertices (l,) of the surfaces as those of their copies that are nearest, none of them twice."""
+        ours, theirs = (
+            cKDTree(_places(surface)).query(surface.mesh.vertices[vertices])[1]
+            for surface, vertices in zip((self.source, self.target), known, strict=True)
+        )
+        rows = np.stack([ours, theirs], axis=1)
+        for column in range(2):
+            rows = rows[np.sort(np.unique(rows[:, column], return_index=True)[1])]
+        return rows[:, 0], rows[:, 1]
+
+    def carried(self, found: Correspondence) -> Correspondence:
+        """A map between the copies as one between the whole surfaces.
+
+        A vertex goes with the point of the copy that it is closest to, and from there to the closest point, in position
+        and normal, of the whole target. Candidates go the same way.
+        """
+        face, weights, _ = closest_on_triangles(self.source.mesh.vertices, _places(self.source), found.source.faces)
+        corners = found.source.faces[face]
+        share = np.einsum("pk,pk->p", weights, found.valid[corners].astype(np.float64))
+        used = np.zeros(self.source.mesh.n_vertices, dtype=bool)
+        used[np.unique(self.source.mesh.faces)] = True
+        return Correspondence(
+            source=self.source.original,
+            target=self.target.original,
+            points=self._sent(found.points, corners, weights),
+            valid=used & (share > 0.5),
+            distortion=np.einsum("pk,pk->p", weights, found.distortion[corners]),
+            status=found.status,
+            candidates=tuple(self._candidate(one, corners, weights) for one in found.candidates),
+            meta={**found.meta, "solved_vertices": [copy.mesh.n_vertices for copy in self.copies]},
+        )
+
+    def _candidate(self, one: Candidate, corners: Index, weights: Array) -> Candidate:
+        return replace(one, points=self._sent(one.points, corners, weights))
+
+    def _sent(self, points: SurfacePoints, corners: Index, weights: Array) -> SurfacePoints:
+        """Where weighted corners (n, 3) of the copy of the source go on the whole target, if `points` is the map."""
+        here, there = _whole(self.source), _whole(self.target)
+        ends = np.einsum("pk,pkj->pj", points.barycentric, _places(self.target)[points.mesh.faces[points.face]])
+        y = np.einsum("pk,pkj->pj", weights, ends[corners])
+        features = here.moved_features(y)
+        turned = orientation_score(here.mesh, there.mesh, y, there.normals[there.places.query(y, workers=threads())[1]])
+        features[:, 3:] *= np.sign(turned) or 1.0
+        near = there.usable[there.tree.query(features, workers=threads())[1]]
+        return on_original(self.target, there.closest(features, there.features, near))
+
+
+def _places(surface: Surface) -> Array:
+    """The vertices of the mesh its copy was measured from, where the surface is."""
+    copy = coarse(surface)
+    return surface.mesh.vertices if copy is surface else copy.original.vertices
+
+
+@derived_once
+def _whole(surface: Surface) -> Geometry:
+    """All of a surface; what it is carried by takes no curvature."""
+    n = surface.mesh.n_vertices
+    return Geometry(surface.mesh, np.arange(n), np.zeros(n))
