@@ -49,15 +49,15 @@ class Evidence:
 
     @property
     def loss(self) -> float:
-        """Minus the log-likelihood up to a constant: the deformations, what is folded over, and the landmarks.
+        """Minus the log-likelihood up to a constant: the deformations, the landmarks, what is folded over.
 
-        Where there is a boundary, and parts may be missing, parts that grow could hide it: there the outlines decide. A
-        map that swaps two legs and leaves what is between them folds that.
+        Where there is a boundary, and parts may be missing, parts that grow could hide it: there the outlines decide.
+        Elsewhere a map that swaps two legs, and not what is between them, folds that.
         """
-        outlines = sum(residuals.loss for residuals in self.outlines)
-        whole = self.whole.loss if self.closed else 0.0
-        folded = float(np.log(max(1 - self.orientation, LEAST_FOLDED)))
-        return outlines + whole + folded + float(np.log(1 + self.landmark_error / HIT))
+        loss = sum(residuals.loss for residuals in self.outlines) + float(np.log(1 + self.landmark_error / HIT))
+        if not self.closed:
+            return loss
+        return loss + self.whole.loss + float(np.log(max(1 - self.orientation, LEAST_FOLDED)))
 
 
 def evidence(
