@@ -16,6 +16,7 @@ from gmds.comparison import families, leaf_order, plane_map, tree
 Array = NDArray[np.float64]
 
 LABELLED = 60  # with more shapes, the map names each family once
+WRITTEN = 12  # with more shapes, the matrix is colours alone
 
 
 def comparison_figure(names: Sequence[str], matrix: Array, pictures: Sequence[Array | None] | None = None) -> Any:
@@ -46,6 +47,8 @@ def comparison_figure(names: Sequence[str], matrix: Array, pictures: Sequence[Ar
     middle.set_title("dissimilarity", fontsize=10)
     middle.set_xticks([])
     middle.set_yticks([])
+    if len(names) <= WRITTEN:
+        _write_values(middle, matrix[np.ix_(order, order)])
     figure.colorbar(shown, ax=middle, fraction=0.04, pad=0.02)
     _draw_map(right, names, family, plane_map(matrix), colours, pictures)
     return figure
@@ -62,10 +65,18 @@ def _draw_tree(axis: Any, linkage: Array, names: Sequence[str], colours: Array, 
     axis.yaxis.tick_right()
     axis.set_yticks(10 * np.arange(len(names)) + 5, names, fontsize=size)
     for label, colour in zip(axis.get_yticklabels(), colours, strict=True):
-        label.set_color(0.8 * colour)
+        label.set_color(0.65 * colour)
     axis.tick_params(axis="y", length=0)
     axis.spines[["left", "top", "right"]].set_visible(False)
     axis.set_title("tree", fontsize=10)
+
+
+def _write_values(axis: Any, matrix: Array) -> None:
+    """Every dissimilarity as a number in its cell, in black or white, whichever is read more easily."""
+    for (i, j), value in np.ndenumerate(matrix):
+        if i != j:
+            ink = "black" if value > 0.55 * matrix.max() else "white"
+            axis.text(j, i, f"{value:.3f}", ha="center", va="center", fontsize=8, color=ink)
 
 
 def _draw_map(
@@ -85,17 +96,18 @@ def _draw_map(
             axis.add_artist(AnnotationBbox(OffsetImage(picture, zoom=0.5), place, frameon=False, pad=0))
     if len(names) <= LABELLED:
         for name, place, colour in zip(names, places, colours, strict=True):
-            _write(axis, name, place, 0.7 * colour, 8, below=pictures is not None)
+            _write(axis, name, place, 0.65 * colour, 8, below=pictures is not None)
     else:
         label = np.asarray(family)
         for name in sorted(set(family)):
             _write(axis, name, np.median(places[label == name], axis=0), 0.6 * colours[label == name][0], 11)
     axis.set_aspect("equal", adjustable="datalim")
-    axis.margins(0.12)
+    axis.margins(0.12 if pictures is None else 0.25)
+    axis.locator_params(nbins=6)
     axis.set_title("map (classical multidimensional scaling)", fontsize=10)
 
 
 def _write(axis: Any, text: str, place: Array, colour: Array, size: float, below: bool = False) -> None:
-    shift = (0, -26) if below else (4, 4)
+    shift = (0, -34) if below else (4, 4)
     align = {"ha": "center"} if below else {}
     axis.annotate(text, place, xytext=shift, textcoords="offset points", color=colour, fontsize=size, **align)
