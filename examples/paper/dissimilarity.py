@@ -164,7 +164,9 @@ def published(data: Path, output: Path) -> Numbers:
     save(output / "dissimilarity_species.png", drawn(species, matrices["distortion"], Y_UP))
     meshes = {path.stem: read_mesh(path) for path in mesh_files(data / "tosca_nonrigid_3k")}
     numbers["collection"], matrix = collection(meshes)
-    save(output / "dissimilarity_collection.png", comparison_figure(list(meshes), matrix))
+    figure = comparison_figure(list(meshes), matrix)
+    figure.set_dpi(70)
+    save(output / "dissimilarity_collection.png", figure)
     numbers["embedded"] = embedded_classes(meshes)
     return numbers
 
