@@ -21,6 +21,7 @@ from gmds.comparison_run import Compared
 Neighbour = tuple[str, int, str, float, float | None]  # shape, rank, other, bound, distortion
 
 SHOWN = 5  # neighbours of each shape
+DISTORTION = "the distortion of the best embeddings found of two shapes in each other"
 BOUND = "the bound, which no embedding that keeps area goes below"
 
 
@@ -88,7 +89,7 @@ def _page(compared: Compared, neighbours: Sequence[Neighbour], drawn: str, title
         shapes=count,
         pairs=count * (count - 1) // 2,
         embedded=compared.embedded_pairs,
-        shown="the distortion of the best embedding found" if compared.matrix is compared.distortions else BOUND,
+        shown=DISTORTION if compared.matrix is compared.distortions else BOUND,
         figure=drawn,
         rows="".join(lines),
         failures=f"<h2>Left out</h2><ul>{left_out}</ul>" if left_out else "",

@@ -17,10 +17,9 @@ from numpy.typing import NDArray
 from geodesics import MeshError, read_mesh
 from geodesics.errors import EigensolverFailed, FormatError
 from geodesics.io import atomic_write
-from gmds import profiles
+from gmds import morphometry, profiles
 from gmds.comparison import nearest
 from gmds.map_file import fingerprint
-from gmds.morphometry import embedding_distortion
 from gmds.surface import SMOOTHING, View
 
 Array = NDArray[np.float64]
@@ -29,6 +28,7 @@ Progress = Callable[[str, float], None]
 SUFFIXES = (".off", ".obj", ".ply", ".stl", ".glb", ".vert")
 IN_MEMORY = 40  # surfaces whose eigenfunctions are kept at a time
 _SETTINGS = f"{profiles.FUNCTIONS} {profiles.SHARES} {profiles.QUANTILES} {SMOOTHING}"
+_EMBEDDING = f"{_SETTINGS} {morphometry.KEPT} {morphometry.DESCENDED} {morphometry.SWEEPS}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,7 +126,7 @@ def _views(path: Path) -> tuple[View, ...]:
 
 
 def _embedded(here: Path, there: Path) -> float:
-    return embedding_distortion(_views(here), _views(there))
+    return morphometry.embedding_distortion(_views(here), _views(there))
 
 
 class _Distortions:
@@ -142,7 +142,7 @@ class _Distortions:
 
     def get(self, one: str, other: str, compute: Callable[[], float]) -> float:
         """The distortion between two meshes, computed unless it is known."""
-        key = (min(one, other), max(one, other), _SETTINGS)
+        key = (min(one, other), max(one, other), _EMBEDDING)
         if key not in self.known:
             self.known[key] = compute()
             with self.path.open("a", newline="", encoding="utf-8") as stream:

@@ -72,13 +72,15 @@ def descended(ours: Array, theirs: Array, images: Index) -> float:
     stress, which outliers sway less than the mean square.
     """
     places = images.copy()
-    least = float(np.abs(ours - theirs[np.ix_(places, places)]).mean())
+    to_places = theirs[:, places]
+    least = float(np.abs(ours - to_places[places]).mean())
     for _ in range(SWEEPS):
         for x, known in enumerate(ours):
-            cost = np.abs(theirs[:, places] - known)
+            cost = np.abs(to_places - known)
             cost[:, x] = 0  # the distance from x to itself is 0 wherever it goes
             places[x] = cost.sum(axis=1).argmin()
-        before, least = least, float(np.abs(ours - theirs[np.ix_(places, places)]).mean())
+            to_places[:, x] = theirs[:, places[x]]
+        before, least = least, float(np.abs(ours - to_places[places]).mean())
         if least > 0.99 * before:
             break
     return least

@@ -14,7 +14,7 @@ from click.testing import CliRunner, Result
 from shapes import bumpy_sphere, ellipsoid, torus
 
 from geodesics import Mesh, write_mesh
-from gmds import comparison_run, profiles
+from gmds import morphometry, profiles
 from gmds.cli import main
 from gmds.deformations import similarity
 
@@ -83,7 +83,7 @@ def test_nothing_is_computed_twice(folder: Path, done: tuple[Path, dict], monkey
         raise AssertionError("computed again")
 
     monkeypatch.setattr(profiles, "distance_profile", never)
-    monkeypatch.setattr(comparison_run, "embedding_distortion", never)
+    monkeypatch.setattr(morphometry, "embedding_distortion", never)
     before = (done[0] / "matrix.csv").read_bytes()
     assert run(folder, "-o", done[0], "--embed", 1).exit_code == 0
     assert (done[0] / "matrix.csv").read_bytes() == before

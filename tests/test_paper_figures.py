@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 pytest.importorskip("matplotlib")
@@ -54,6 +55,13 @@ def test_gmds_in_the_invariant_metric(numbers) -> None:
     found = numbers("fig7_gmds")["animal"]
     assert found["match"]["error_x100"] <= 2.5
     assert found["match"]["error_x100"] < 0.5 * found["invariant"]["error_x100"] < 15  # 40 and more at random
+
+
+def test_two_dogs_with_other_ears_are_closer_than_either_is_to_a_cat(numbers) -> None:
+    found = numbers("dissimilarity")["built-in"]
+    for kind in ("distortion", "bound"):
+        assert 0 < found[kind]["dog to dog, at most"] < 0.8 * found[kind]["dog to cat, at least"]
+    assert np.array(found["distortion"]["matrix"]).shape == (3, 3)
 
 
 def test_metrics_keep_what_their_definition_promises(numbers) -> None:

@@ -15,7 +15,7 @@ from geodesics import write_mesh
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-CITATION = re.compile(r"\(\d\.\d\)|sec\. \d|Theorem \d\.\d|Fig\. \d|footnote \d|abstract")
+CITATION = re.compile(r"\(\d\.\d\)|sec\. \d|Theorem \d\.\d|Fig\. \d|Table \d|footnote \d|abstract")
 
 
 def rows() -> list[tuple[str, str, list[str]]]:

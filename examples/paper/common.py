@@ -87,11 +87,12 @@ def grid(
     inches = 2.6 * size * len(columns) + 0.4, 2.2 * size * len(rows) + 0.6
     figure = Figure(figsize=inches, dpi=110, layout="constrained")
     axes = figure.subplots(len(rows), len(columns), squeeze=False)
-    for (name, pictures), line in zip(rows, axes, strict=True):
+    for number, ((name, pictures), line) in enumerate(zip(rows, axes, strict=True)):
         for image, axis in zip(pictures, line, strict=True):
             axis.set_xticks([])
             axis.set_yticks([])
             axis.spines[:].set_visible(False)
+            axis.set_anchor("C" if number else "N")  # captions in a row
             if image is not None:
                 axis.imshow(image)
         line[0].set_ylabel(name, fontsize=9)

@@ -23,9 +23,10 @@ def command(folder: Path, output: Path, embed: int, as_json: bool) -> None:
     """Compare all shapes of FOLDER, whatever their poses and sizes and, within limits, the sizes of their parts.
 
     Every pair gets a bound: the least distortion that a map of one surface to the other can have if it keeps area, in
-    the scale-invariant metric; a millisecond or two. With --embed N every shape is also embedded in the N others of
-    least bound, and these pairs get the distortion of the best embedding found: seconds each. When that is every pair,
-    because there are N + 1 shapes, the matrix, the tree and the map are made of distortions, else of bounds.
+    the scale-invariant metric; a millisecond or two. With --embed N every shape and the N others of least bound are
+    also embedded in each other, and these pairs get the distortion of the best embeddings found, of the way round that
+    distorts more: seconds each. When that is every pair, because there are N + 1 shapes, the matrix, the tree and the
+    map are made of distortions, else of bounds.
 
     The output folder holds matrix.csv; nearest.csv (for every shape the nearest others, with bound and distortion);
     tree.csv (a merge of two clusters a line; clusters are numbered after the shapes); map.csv (a point in
