@@ -7,6 +7,7 @@ import itertools
 import logging
 import os
 import signal
+import time
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, TypeVar
 
@@ -18,6 +19,7 @@ Result = TypeVar("Result")
 
 TRIES = 3  # workers that may die of a task before it is given up
 LOST = 30  # seconds that a worker may take to come back, after which it is replaced
+OFTEN = 1.0  # seconds between two counts of the threads
 PATIENCE = 5.0  # seconds between two looks at the workers while nothing is done
 INSTALL = "a batch needs dask.distributed; install it with: pip install 'gmds[batch]'"
 
@@ -70,10 +72,12 @@ def outcomes(
     Jobs are taken as workers become free, so there may be any number of them. When the caller stops, so do they.
     """
     waiting, running = iter(jobs), dict[Any, Job]()
+    threads, asked = 0, time.monotonic() - 2 * OFTEN
     try:
         while True:
-            free = max(1, sum(client.nthreads().values())) - len(running)
-            for job in itertools.islice(waiting, max(0, free)):
+            if time.monotonic() > asked + OFTEN:
+                threads, asked = max(1, sum(client.nthreads().values())), time.monotonic()
+            for job in itertools.islice(waiting, max(0, threads - len(running))):
                 running[client.submit(function, job, pure=False)] = job
             if not running:
                 return
