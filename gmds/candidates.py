@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -33,6 +34,7 @@ REPEATS = 2  # more refinements, if each pays
 RETURNS = 3  # registrations there and back
 GAIN = 0.005  # share of the energy by which each must lower it, where parts grew
 SPECTRAL_GAIN = 0.08  # and by which eigenfunctions must: more where nothing grew, less across species
+AGAIN = ((3e-3, 4), (1e-3, 4), (5e-4, 4))  # registration of a map that is good already
 CONGRUENT = 1e-9  # elastic energy below which a map is a congruence up to rounding
 
 
@@ -91,11 +93,11 @@ def finished(best: Embedded) -> Embedded:
 
     def in_space(points: SurfacePoints) -> Registered:
         images = upsampled(*regular, points.nearest_vertices(), FINE_LADDER)
-        return registered(pair, SurfacePoints.at_vertices(pair.target.mesh, images))
+        return registered(pair, SurfacePoints.at_vertices(pair.target.mesh, images), AGAIN)
 
     def keeping_area(points: SurfacePoints) -> Registered:
         images, _ = pair.refiner.aligned(points.nearest_vertices(), REST)
-        return registered(pair, SurfacePoints.at_vertices(pair.target.mesh, images))
+        return registered(pair, SurfacePoints.at_vertices(pair.target.mesh, images), AGAIN)
 
     way, trial = keeping_area, in_space(now.points)
     if trial.residuals.energy < now.residuals.energy:
@@ -140,14 +142,16 @@ def placed(
     return extend(ours, theirs, *pair.with_landmarks(samples, solution.points), k), solution
 
 
-def registered(pair: SurfacePair, points: SurfacePoints) -> Registered:
+def registered(
+    pair: SurfacePair, points: SurfacePoints, stages: Sequence[tuple[float, int]] = (COARSE[0], *COARSE, *FINE)
+) -> Registered:
     """The source deformed from where the map to `points` (n,) sends it; left there if that is a congruence already."""
     source, target = pair.geometries
     y = points.positions
     same = as_it_is(source, target, y, growing=True, partial=True)
     if same.residuals.energy < CONGRUENT:
         return replace(same, points=points)
-    return register(source, target, y, (COARSE[0], *COARSE, *FINE), growing=True, partial=True)
+    return register(source, target, y, stages, growing=True, partial=True)
 
 
 def mirrored(best: Embedded) -> Embedded | None:

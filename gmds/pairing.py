@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from geodesics import SurfacePoints
-from geodesics.threads import threads
+from geodesics.threads import side_by_side, threads
+from gmds._kernels.closest import nearest_candidates
 from gmds.geometry import Geometry
 from gmds.surface import View
 
@@ -19,7 +20,6 @@ Index = NDArray[np.int64]
 SPECTRAL_WEIGHT = 0.15  # root areas that root mean square eigenfunctions, all taken together, are worth
 CANDIDATES = 10  # closest vertices in position and normal among which eigenfunctions decide
 MANY = 2000  # vertices for which threads pay
-_BLOCK = 1 << 12  # queries compared at a time
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +58,9 @@ class Pairing:
             ].reshape(-1, few)
             here, there = _spectral_rows(source, views, ahead[:, 0])
             ours, theirs = np.hstack([ours, here]), np.hstack([theirs, there])
-            near, back = _nearest(ours, theirs, ahead), _nearest(theirs[target.usable], ours, behind)
+            q, r = ours.astype(np.float32), theirs.astype(np.float32)
+            searches = ((q, r, ahead), (r[target.usable], q, behind))
+            near, back = side_by_side(lambda one: nearest_candidates(*one), searches)
         points = target.closest(ours, theirs, near)
         weight, weight_back = source.areas, target.areas[target.usable]
         if partial:
@@ -79,21 +81,11 @@ class Pairing:
 def _spectral_rows(source: Geometry, views: tuple[View, View], images: Index) -> tuple[Array, Array]:
     """Eigenfunctions (n, k), (q, k) of both surfaces as the map to `images` (n,) identifies them, weighted.
 
-    Column j holds target function j, and what is left of it when it is pulled back by the map and written in source
-    functions.
+    In single precision. Column j holds target function j, and what is left of it when it is pulled back by the map and
+    written in source functions.
     """
     k = min(view.functions.shape[1] for view in views)
-    ours, theirs = (view.functions[:, :k] for view in views)
-    weighted = theirs * (SPECTRAL_WEIGHT / np.sqrt(k))
-    return ours @ (ours.T @ (source.areas[:, None] * weighted[images])), weighted
-
-
-def _nearest(queries: Array, rows: Array, candidates: Index) -> Index:
-    """For each query (p, k) the index of the nearest of the rows (n, k) that are its `candidates` (p, c)."""
-    q, r = queries.astype(np.float32), rows.astype(np.float32)
-    half, result = 0.5 * np.einsum("nk,nk->n", r, r), np.empty(len(q), dtype=np.int64)
-    for start in range(0, len(q), _BLOCK):
-        here = candidates[start : start + _BLOCK]
-        gap = half[here] - np.einsum("pk,pck->pc", q[start : start + _BLOCK], r[here], optimize=True)
-        result[start : start + _BLOCK] = here[np.arange(len(here)), gap.argmin(axis=1)]
-    return result
+    ours, theirs = (view.functions[:, :k].astype(np.float32) for view in views)
+    weighted = theirs * np.float32(SPECTRAL_WEIGHT / np.sqrt(k))
+    areas = source.areas.astype(np.float32)
+    return ours @ (ours.T @ (areas[:, None] * weighted[images])), weighted

@@ -30,6 +30,11 @@ def inlined(function: F) -> F:
     return numba.njit(inline="always", **OPTIONS)(function)  # type: ignore[no-any-return]
 
 
+def summing(function: F) -> F:
+    """As `njit`, for long sums: terms may be added in any order, and so several at a time."""
+    return _compiled(function, fastmath={"reassoc", "nsz", "contract"}, **OPTIONS)
+
+
 def _compiled(function: F, **options: Any) -> F:
     try:
         return numba.njit(cache=True, **options)(function)  # type: ignore[no-any-return]

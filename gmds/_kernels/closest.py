@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from geodesics._kernels.jit import njit
+from geodesics._kernels.jit import njit, summing
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 
-@njit
+@summing
 def closest_on_faces(
     queries: Array, rows: Array, faces: Index, ring: Index, start: Index, guess: Index, rounds: int
 ) -> tuple[Index, Array, Array]:
@@ -53,6 +53,30 @@ def closest_on_faces(
                 break
             vertex = faces[face[i], largest]
     return face, weight, best
+
+
+@summing
+def nearest_candidates(queries: Array, rows: Array, candidates: Index) -> Index:
+    """For each query (p, k) the nearest of the rows (n, k) that are its `candidates` (p, c), the first of equals."""
+    p, count = candidates.shape
+    found = np.empty(p, np.int64)
+    half = np.empty(len(rows), rows.dtype)
+    for j in range(len(rows)):
+        total = rows.dtype.type(0)
+        for d in range(rows.shape[1]):
+            total += rows[j, d] * rows[j, d]
+        half[j] = total / 2
+    for i in range(p):
+        best, found[i] = np.inf, candidates[i, 0]
+        for c in range(count):
+            row = candidates[i, c]
+            total = rows.dtype.type(0)
+            for d in range(rows.shape[1]):
+                total += queries[i, d] * rows[row, d]
+            gap = half[row] - total
+            if gap < best:
+                best, found[i] = gap, row
+    return found
 
 
 @njit
