@@ -2,8 +2,14 @@
 
 from __future__ import annotations
 
+import numpy as np
 import scipy.sparse as sp
 import scipy.sparse.linalg as sla
+from numpy.typing import NDArray
+
+from geodesics._kernels.substitution import WIDTH, Triangle, substitute
+
+Array = NDArray[np.float64]
 
 
 def factorised(matrix: sp.spmatrix) -> sla.SuperLU:
@@ -16,6 +22,33 @@ def factorised(matrix: sp.spmatrix) -> sla.SuperLU:
         return _factors(matrix)
     except RuntimeError:
         return _factors(matrix + 1e-14 * sp.diags(matrix.diagonal()))
+
+
+class Inverse:
+    """The inverse of a symmetric matrix from its factors, applied to many right-hand sides: twice as fast as SuperLU.
+
+    With Pr A Pc = L U and A symmetric, A x = b is U^T L^T Pr x = Pc^T b.
+    """
+
+    def __init__(self, factors: sla.SuperLU) -> None:
+        lower, upper = factors.L, factors.U
+        for triangle in (lower, upper):
+            triangle.sort_indices()
+        self._upper = Triangle(upper.indptr, upper.indices, upper.data)
+        self._lower = Triangle(lower.indptr, lower.indices, lower.data)
+        self._from, self._to = np.argsort(factors.perm_c), factors.perm_r
+
+    def solve(self, block: Array) -> Array:
+        """A^-1 block (n, k), in Fortran order."""
+        out = np.empty(block.shape, order="F")
+        for k in range(0, block.shape[1], WIDTH):
+            part = block[:, k : k + WIDTH]
+            work = np.zeros((len(part), WIDTH))
+            work[:, : part.shape[1]] = part
+            work = work[self._from]
+            substitute(self._upper, self._lower, work)
+            out[:, k : k + WIDTH] = work[self._to][:, : part.shape[1]]
+        return out
 
 
 def _factors(matrix: sp.spmatrix) -> sla.SuperLU:
