@@ -116,5 +116,5 @@ def _removed(block: Array, basis: Array) -> Array:
 
 def _factored(block: Array) -> tuple[Array, Array]:
     """A block as orthonormal columns times an upper triangle, by Cholesky; `LinAlgError` where they are dependent."""
-    link = np.linalg.cholesky(block.T @ block).T
+    link = np.asarray(np.linalg.cholesky(block.T @ block).T, dtype=np.float64)
     return scipy.linalg.blas.dtrsm(1.0, link, block, side=1), link

@@ -19,17 +19,17 @@ class Triangle(NamedTuple):
     """A triangular matrix by columns with ascending indices: column i is entries start[i] to start[i + 1]."""
 
     start: Indices
-    index: Indices
+    row: Indices
     value: Floats
 
 
 @inlined
-def _subtract(index: Indices, value: Floats, first: int, last: int, i: int, work: Floats) -> None:
+def _subtract(row: Indices, value: Floats, first: int, last: int, i: int, work: Floats) -> None:
     """Take from row i of work the rows that entries `first` to `last` of a column name, times their values."""
     a, b, c, d = work[i, 0], work[i, 1], work[i, 2], work[i, 3]
     e, f, g, h = work[i, 4], work[i, 5], work[i, 6], work[i, 7]
     for p in range(first, last):
-        j, v = index[p], value[p]
+        j, v = row[p], value[p]
         a -= v * work[j, 0]
         b -= v * work[j, 1]
         c -= v * work[j, 2]
@@ -45,12 +45,12 @@ def _subtract(index: Indices, value: Floats, first: int, last: int, i: int, work
 @uncounted
 def substitute(upper: Triangle, lower: Triangle, work: Floats) -> None:
     """Replace work (n, 8) by the solution x of U^T L^T x = work, where L has ones on its diagonal."""
-    start, index, value = upper.start, upper.index, upper.value
+    start, row, value = upper.start, upper.row, upper.value
     for i in range(work.shape[0]):
         pivot = start[i + 1] - 1
-        _subtract(index, value, start[i], pivot, i, work)
+        _subtract(row, value, start[i], pivot, i, work)
         for k in range(WIDTH):
             work[i, k] /= value[pivot]
-    start, index, value = lower.start, lower.index, lower.value
+    start, row, value = lower.start, lower.row, lower.value
     for i in range(work.shape[0] - 1, -1, -1):
-        _subtract(index, value, start[i] + 1, start[i + 1], i, work)
+        _subtract(row, value, start[i] + 1, start[i + 1], i, work)
