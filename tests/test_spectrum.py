@@ -9,8 +9,10 @@ import scipy.sparse as sp
 import scipy.sparse.linalg
 from shapes import bumpy_sphere, cube, disc, icosphere, joined, moved, rectangle, tetrahedron, torus, with_isolated
 
+import geodesics._sparse
 from geodesics import Mesh, Metric, eigenpairs, embedded, galerkin_mass, lumped_mass, scale_invariant, stiffness
 from geodesics._sparse import Inverse, factorised
+from geodesics.dissection import nested_dissection
 from geodesics.errors import EigensolverFailed
 from geodesics.lanczos import smallest_eigenpairs
 from geodesics.topology import boundary_vertices
@@ -151,16 +153,36 @@ def test_exact_eigenvalues_are_those_of_arpack():
     )
 
 
+@pytest.mark.parametrize("large", [0, 10**9])
 @pytest.mark.parametrize("columns", [1, 3, 8, 20])
-def test_inverse_of_a_sparse_matrix(columns):
-    """One substitution for eight columns does what the dense solver does for each."""
-    metric = embedded(bumpy_sphere(3))
+def test_inverse_of_a_sparse_matrix(columns, large, monkeypatch):
+    """One substitution for eight columns does what the dense solver does for each, in either order of elimination."""
+    monkeypatch.setattr(geodesics._sparse, "LARGE", large)
+    metric = embedded(joined(bumpy_sphere(3), icosphere(2)))
     matrix = (stiffness(metric) + sp.diags(metric.mass)).tocsc()
     block = np.random.default_rng(0).standard_normal((matrix.shape[0], columns))
     given = block.copy()
-    found = Inverse(factorised(matrix)).solve(block)
+    factors = factorised(matrix)
+    exact = np.linalg.solve(matrix.toarray(), block)
+    np.testing.assert_allclose(Inverse(factors).solve(block), exact, rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(factors.solve(block), exact, rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(factors.solve(block[:, 0]), exact[:, 0], rtol=1e-9, atol=1e-12)
     np.testing.assert_array_equal(block, given)
-    np.testing.assert_allclose(found, np.linalg.solve(matrix.toarray(), block), rtol=1e-9, atol=1e-12)
+
+
+def test_nested_dissection_fills_little():
+    """Every row once; on a grid hardly more entries than minimum degree makes, and far fewer than row by row."""
+    matrix = (stiffness(embedded(rectangle(100, 100))) + sp.identity(101**2)).tocsc()
+    order = nested_dissection(matrix)
+    np.testing.assert_array_equal(np.sort(order), np.arange(101**2))
+
+    def entries(matrix, **settings):
+        options = {"diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
+        return scipy.sparse.linalg.splu(matrix, **options, **settings).nnz
+
+    dissected = entries(matrix[order][:, order], permc_spec="NATURAL")
+    assert dissected < 1.6 * entries(matrix, permc_spec="MMD_AT_PLUS_A")
+    assert dissected < 0.5 * entries(matrix, permc_spec="NATURAL")
 
 
 def test_repeatable():

@@ -41,7 +41,7 @@ def _compiled(function: F, **options: Any) -> F:
 
 @contextmanager
 def told_of_compiling(tell: Callable[[bool], None]) -> Iterator[None]:
-    """Inside the block, `tell(True)` when a kernel begins to be compiled, not read from disk, and then `tell(False)`."""
+    """Inside the block, `tell(True)` when a kernel begins to be compiled, not read from disk; then `tell(False)`."""
 
     class Listener(event.Listener):  # type: ignore[misc]
         depth = 0  # kernels compile the kernels that they call
