@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 import scipy.linalg
 import scipy.sparse as sp
-import scipy.sparse.linalg as sla
 from numpy.typing import NDArray
 
-from geodesics._sparse import factorised
+from geodesics._sparse import Inverse, factorised
 from geodesics.errors import EigensolverFailed
+from geodesics.krylov import KrylovBasis
 
 Array = NDArray[np.float64]
-_BLOCK = 6  # finds eigenvalues of this multiplicity: those of the sphere's finite subgroups have at most 5
+_BLOCK = 8  # finds eigenvalues of this multiplicity: those of the sphere's finite subgroups have at most 5
 _DENSE = 400  # below this size a dense solver is as fast
 
 
@@ -21,9 +21,9 @@ def smallest_eigenpairs(
 ) -> tuple[Array, Array]:
     """Eigenvalues (k,) ascending and orthonormal eigenvectors (n, k), k = min(count, n).
 
-    Residuals are at most tolerance * lambda. `matrix` (n, n) is symmetric positive semi-definite, with the wanted
-    eigenvalues large against `shift`. Parts of it that are not linked are solved apart, so equal parts give multiple
-    eigenvalues. Raises `EigensolverFailed`.
+    Residuals are at most tolerance * max(lambda, 1), as far as rounding lets them. `matrix` (n, n) is symmetric
+    positive semi-definite; the `shift` makes it definite, and is best a tenth of the last eigenvalue. Parts of it that
+    are not linked are solved apart, so equal parts give multiple eigenvalues. Raises `EigensolverFailed`.
     """
     n_parts, part = sp.csgraph.connected_components(matrix, directed=False)
     if n_parts == 1:
@@ -45,63 +45,38 @@ def _of_one_part(matrix: sp.csc_matrix, count: int, shift: float, tolerance: flo
     dense = n < _DENSE or 4 * count > n
     if dense and matrix.diagonal().max() < 1e9:
         return scipy.linalg.eigh(matrix.toarray(), subset_by_index=(0, count - 1))
+    shift = 1e-2 if dense else shift
     try:
-        factor = factorised(matrix + shift * sp.identity(n))
+        inverse = Inverse(factorised(matrix + shift * sp.identity(n)))
     except RuntimeError as error:
         raise EigensolverFailed(f"the matrix of {n} vertices could not be factorised ({error})") from error
-    if dense:  # stiff (vertices all but coincide): rounding would drown the small eigenvalues, not those of the inverse
-        full = factor.solve(np.eye(n))
-        inverse, vectors = scipy.linalg.eigh((full + full.T) / 2, subset_by_index=(n - count, n - 1))
-        inverse, vectors = np.maximum(inverse[::-1], np.finfo(float).eps * inverse[-1]), vectors[:, ::-1]
-    else:
-        inverse, vectors = _largest_of_inverse(factor, n, count, tolerance)
-    return 1 / inverse - shift, vectors
+    if not dense:
+        return _by_lanczos(inverse, n, count, shift, tolerance)
+    # stiff (vertices all but coincide): rounding would drown the small eigenvalues, not those of the inverse
+    full = inverse.solve(np.eye(n))
+    values, vectors = scipy.linalg.eigh((full + full.T) / 2, subset_by_index=(n - count, n - 1))
+    values = np.maximum(values[::-1], np.finfo(float).eps * values[-1])
+    return 1 / values - shift, vectors[:, ::-1]
 
 
-def _largest_of_inverse(factor: sla.SuperLU, n: int, count: int, tolerance: float) -> tuple[Array, Array]:
-    """Largest eigenpairs of the inverse, descending: block Lanczos with full reorthogonalisation by matrix products."""
-    b, capacity = _BLOCK, min(n - _BLOCK, 8 * count + 50 * _BLOCK)
-    random = np.random.default_rng(0)
-    basis = np.empty((n, capacity + b), order="F")
-    tridiagonal = np.zeros((capacity + b, capacity + b))  # block tridiagonal, lower half
-    basis[:, :b] = np.linalg.qr(random.standard_normal((n, b)))[0]
-    size, check = 0, 5 * count // 2 + 4 * b
-    while size + b <= capacity:
-        image = factor.solve(basis[:, size : size + b])
-        near = basis[:, max(size - b, 0) : size + b]
-        overlap = near.T @ image
-        image -= near @ overlap
-        tridiagonal[size : size + b, size : size + b] = overlap[-b:]
-        size += b
-        following, link = _orthonormal(image, basis[:, :size], random)
-        if size >= check or size + b > capacity:
-            found = scipy.linalg.eigh(
-                tridiagonal[:size, :size], subset_by_index=(size - count, size - 1), driver="evr", lower=True
-            )
-            values, coordinates = found[0][::-1], found[1][:, ::-1]
-            rest = link @ coordinates[-b:]  # the residual, in the basis of `following`
-            if np.all(np.linalg.norm(rest, axis=0) <= tolerance * values):
-                # one more power of the inverse costs nothing: it takes the vectors to
-                # basis * coordinates * values + following * rest
-                return values, basis[:, :size] @ coordinates + following @ (rest / values)
-            check = size + max(b, count // 8)
-        basis[:, size : size + b] = following
-        tridiagonal[size : size + b, size - b : size] = link
-    raise EigensolverFailed(f"the {count} smallest eigenpairs of {n} vertices did not converge in {size} steps")
+def _by_lanczos(inverse: Inverse, n: int, count: int, shift: float, tolerance: float) -> tuple[Array, Array]:
+    """Smallest eigenpairs from the largest of the inverse, in a Krylov space that grows until it holds them."""
+    krylov = KrylovBasis(n, _BLOCK, min(n - _BLOCK, 8 * count + 50 * _BLOCK), min(1e-9, 1e-2 * tolerance))
+    check = 5 * count // 2 + 2 * _BLOCK
+    while krylov.room():
+        krylov.grow(inverse.solve(krylov.last))
+        if krylov.size < check and krylov.room():
+            continue
+        few = min(_BLOCK, count)  # the last ones of those wanted, which converge last
+        if _converged(*krylov.ritz(count - few, count)[::2], shift, tolerance):
+            values, coordinates, rest = krylov.ritz(0, count)
+            if _converged(values, rest, shift, tolerance):
+                return 1 / values - shift, krylov.vectors(values, coordinates, rest)
+        check = krylov.size + max(_BLOCK, count // 16)
+    raise EigensolverFailed(f"the {count} smallest eigenpairs of {n} vertices did not converge in {krylov.size} steps")
 
 
-def _orthonormal(image: Array, basis: Array, random: np.random.Generator) -> tuple[Array, Array]:
-    """The part of `image` outside `basis` as an orthonormal block times a triangular factor."""
-    size = np.linalg.norm(image, axis=0)
-    image -= basis @ (basis.T @ image)
-    block, link = np.linalg.qr(image)
-    left = np.abs(np.diag(link)) / max(size.max(), np.finfo(float).tiny)
-    if left.min() > 1e-6:
-        return block, link
-    # hardly anything new: clean what there is, and where there is nothing go on in a random direction
-    lost = left <= 1e-13
-    block[:, lost] = random.standard_normal((len(image), np.count_nonzero(lost)))
-    for _ in range(2):
-        block -= basis @ (basis.T @ block)
-        block, _ = np.linalg.qr(block)
-    return block, block.T @ image
+def _converged(values: Array, rest: Array, shift: float, tolerance: float) -> bool:
+    """True when the residuals `rest` of the inverse make residuals of the matrix that are small enough."""
+    allowed = tolerance * values**2 * np.maximum(1 / values - shift, 1.0)
+    return bool(np.all(np.linalg.norm(rest, axis=0) <= allowed))

@@ -6,9 +6,13 @@ import numpy as np
 import pytest
 import scipy.linalg
 import scipy.sparse as sp
+import scipy.sparse.linalg
 from shapes import bumpy_sphere, cube, disc, icosphere, joined, moved, rectangle, tetrahedron, torus, with_isolated
 
+import geodesics._sparse
 from geodesics import Mesh, Metric, eigenpairs, embedded, galerkin_mass, lumped_mass, scale_invariant, stiffness
+from geodesics._sparse import Inverse, factorised
+from geodesics.dissection import nested_dissection
 from geodesics.errors import EigensolverFailed
 from geodesics.lanczos import smallest_eigenpairs
 from geodesics.topology import boundary_vertices
@@ -114,6 +118,71 @@ def test_residual_and_orthonormality(metric):
     gram = spectrum.eigenfunctions.T @ (g.mass[:, None] * spectrum.eigenfunctions)
     np.testing.assert_allclose(gram, np.eye(100), atol=1e-10)
     assert np.all(np.diff(spectrum.eigenvalues) >= 0)
+
+
+def needle():
+    """A thin tube, whose first eigenfunctions are those of an interval."""
+    angle, z = np.arange(6) * np.pi / 3, np.linspace(0, 60, 1200)
+    ring = 0.05 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    vertices = np.concatenate([np.tile(ring, (1200, 1)), np.repeat(z, 6)[:, None]], axis=1)
+    a = (6 * np.arange(1199)[:, None] + np.arange(6)).ravel()
+    b = (6 * np.arange(1199)[:, None] + (np.arange(6) + 1) % 6).ravel()
+    return Mesh(vertices, np.concatenate([np.stack([a, b, a + 6], 1), np.stack([b, b + 6, a + 6], 1)]))
+
+
+@pytest.mark.parametrize("tolerance", [1e-6, 1e-8, 1e-10])
+@pytest.mark.parametrize(
+    "make", [lambda: bumpy_sphere(4), lambda: icosphere(4), needle], ids=["bumpy", "sphere", "needle"]
+)
+def test_residuals_are_within_the_tolerance(make, tolerance):
+    """Also those of multiple eigenvalues, and of spectra that do not grow as those of surfaces do."""
+    for metric in (embedded(make()), scale_invariant(make())):
+        spectrum = eigenpairs(metric, 120, tolerance=tolerance)
+        assert residual(metric, spectrum).max() <= tolerance
+        gram = spectrum.eigenfunctions.T @ (metric.mass[:, None] * spectrum.eigenfunctions)
+        np.testing.assert_allclose(gram, np.eye(120), atol=1e-12)
+
+
+def test_exact_eigenvalues_are_those_of_arpack():
+    metric = scale_invariant(bumpy_sphere(4))
+    start = np.random.default_rng(0).standard_normal(metric.mesh.n_vertices)
+    mass = sp.diags(metric.mass).tocsc()
+    values = scipy.sparse.linalg.eigsh(stiffness(metric).tocsc(), 100, mass, sigma=-1e-2, v0=start, which="LM")[0]
+    np.testing.assert_allclose(
+        eigenpairs(metric, 100, tolerance=1e-10).eigenvalues, np.sort(values), rtol=1e-11, atol=1e-9
+    )
+
+
+@pytest.mark.parametrize("large", [0, 10**9])
+@pytest.mark.parametrize("columns", [1, 3, 8, 20])
+def test_inverse_of_a_sparse_matrix(columns, large, monkeypatch):
+    """One substitution for eight columns does what the dense solver does for each, in either order of elimination."""
+    monkeypatch.setattr(geodesics._sparse, "LARGE", large)
+    metric = embedded(joined(bumpy_sphere(3), icosphere(2)))
+    matrix = (stiffness(metric) + sp.diags(metric.mass)).tocsc()
+    block = np.random.default_rng(0).standard_normal((matrix.shape[0], columns))
+    given = block.copy()
+    factors = factorised(matrix)
+    exact = np.linalg.solve(matrix.toarray(), block)
+    np.testing.assert_allclose(Inverse(factors).solve(block), exact, rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(factors.solve(block), exact, rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(factors.solve(block[:, 0]), exact[:, 0], rtol=1e-9, atol=1e-12)
+    np.testing.assert_array_equal(block, given)
+
+
+def test_nested_dissection_fills_little():
+    """Every row once; on a grid hardly more entries than minimum degree makes, and far fewer than row by row."""
+    matrix = (stiffness(embedded(rectangle(100, 100))) + sp.identity(101**2)).tocsc()
+    order = nested_dissection(matrix)
+    np.testing.assert_array_equal(np.sort(order), np.arange(101**2))
+
+    def entries(matrix, **settings):
+        options = {"diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
+        return scipy.sparse.linalg.splu(matrix, **options, **settings).nnz
+
+    dissected = entries(matrix[order][:, order], permc_spec="NATURAL")
+    assert dissected < 1.6 * entries(matrix, permc_spec="MMD_AT_PLUS_A")
+    assert dissected < 0.5 * entries(matrix, permc_spec="NATURAL")
 
 
 def test_repeatable():

@@ -11,6 +11,8 @@ import click
 
 Progress = Callable[[str, float], None]
 
+COMPILING = "compiling, this once"
+
 json_option = click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 seed_option = click.option("--seed", default=0, show_default=True, help="Seed of everything random.")
 
@@ -34,10 +36,13 @@ def note(message: str) -> None:
 def progress_bar(title: str, *, remaining: bool = False) -> Iterator[Progress]:
     """A bar on stderr, moved by the function the block gets; nothing shows unless stderr is a terminal.
 
-    `remaining`: whether the time that is left is shown as well, as the speed of the last half hour foretells it.
+    It says so while kernels are being compiled. `remaining`: whether the time that is left is shown as well, as the
+    speed of the last half hour foretells it.
     """
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+    from geodesics.compiling import told_of_compiling
 
     console = Console(stderr=True)
     left = (TextColumn("left"), TimeRemainingColumn()) if remaining else ()
@@ -45,14 +50,18 @@ def progress_bar(title: str, *, remaining: bool = False) -> Iterator[Progress]:
     with Progress(
         *columns, console=console, transient=True, disable=not console.is_terminal, speed_estimate_period=1800
     ) as bars:
-        task = bars.add_task(title, total=1.0)
+        task, at = bars.add_task(title, total=1.0), title
 
         def progress(stage: str, fraction: float) -> None:
-            bars.update(
-                task, description=f"{title}: {stage}" if stage else title, completed=min(max(fraction, 0.0), 1.0)
-            )
+            nonlocal at
+            at = f"{title}: {stage}" if stage else title
+            bars.update(task, description=at, completed=min(max(fraction, 0.0), 1.0))
 
-        yield progress
+        def compiling(begins: bool) -> None:
+            bars.update(task, description=f"{at} ({COMPILING})" if begins else at, refresh=begins)
+
+        with told_of_compiling(compiling):
+            yield progress
 
 
 def _plain(value: Any) -> str:

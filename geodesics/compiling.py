@@ -1,0 +1,7 @@
+"""Kernels are compiled when first used, which takes seconds and happens once on a machine."""
+
+from __future__ import annotations
+
+from geodesics._kernels.jit import told_of_compiling
+
+__all__ = ["told_of_compiling"]
