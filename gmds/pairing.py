@@ -16,6 +16,7 @@ from gmds.surface import View
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
+Single = NDArray[np.float32]
 
 SPECTRAL_WEIGHT = 0.15  # root areas that root mean square eigenfunctions, all taken together, are worth
 CANDIDATES = 10  # closest vertices in position and normal among which eigenfunctions decide
@@ -78,7 +79,7 @@ class Pairing:
         return weights, total / np.maximum(weights, np.finfo(float).tiny)[:, None]
 
 
-def _spectral_rows(source: Geometry, views: tuple[View, View], images: Index) -> tuple[Array, Array]:
+def _spectral_rows(source: Geometry, views: tuple[View, View], images: Index) -> tuple[Single, Single]:
     """Eigenfunctions (n, k), (q, k) of both surfaces as the map to `images` (n,) identifies them, weighted.
 
     In single precision. Column j holds target function j, and what is left of it when it is pulled back by the map and

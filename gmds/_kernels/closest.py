@@ -9,6 +9,7 @@ from geodesics._kernels.jit import njit, summing
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
+Single = NDArray[np.float32]
 
 
 @summing
@@ -56,7 +57,7 @@ def closest_on_faces(
 
 
 @summing
-def nearest_candidates(queries: Array, rows: Array, candidates: Index) -> Index:
+def nearest_candidates(queries: Single, rows: Single, candidates: Index) -> Index:
     """For each query (p, k) the nearest of the rows (n, k) that are its `candidates` (p, c), the first of equals."""
     p, count = candidates.shape
     found = np.empty(p, np.int64)
