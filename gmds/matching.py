@@ -87,7 +87,12 @@ def match(  # noqa: PLR0913 - the signature is a promise
     other = mirrored(placed[0])
     placed += [] if other is None else [other]
 
-    settings = {"n_samples": count, **described(distance, loss), "orientation": orientation, "rng": rng}
+    settings = {
+        "n_samples": min(count, len(measured.regular.usable)),
+        **described(distance, loss),
+        "orientation": orientation,
+        "rng": rng,
+    }
     found = answer(placed, {"parameters": settings})
     found = found if carrier is None else carrier.carried(found)
     report("done", 1.0)
