@@ -44,7 +44,7 @@ def local_client(workers: int | None = None) -> Iterator[Any]:
             n_workers=workers,
             threads_per_worker=1,
             processes=True,
-            dashboard_address=None,
+            dashboard_address="127.0.0.1:0",  # any port: others may run on this machine
             silence_logs=logging.CRITICAL,
         )
         client = stack.enter_context(distributed.Client(stack.enter_context(cluster)))
