@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import json
 import runpy
 import sys
@@ -62,6 +63,20 @@ def test_two_dogs_with_other_ears_are_closer_than_either_is_to_a_cat(numbers) ->
     for kind in ("distortion", "bound"):
         assert 0 < found[kind]["dog to dog, at most"] < 0.8 * found[kind]["dog to cat, at least"]
     assert np.array(found["distortion"]["matrix"]).shape == (3, 3)
+
+
+def test_the_published_table_of_dissimilarities_is_that_of_the_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(str(SCRIPTS))
+    markdown: Any = __import__("dissimilarity_tables").markdown
+    about = ast.get_docstring(ast.parse((SCRIPTS / "dissimilarity.py").read_text(encoding="utf-8"))) or ""
+    root = SCRIPTS.parents[1]
+    found = json.loads((root / "docs" / "paper" / "dissimilarity.json").read_text(encoding="utf-8"))
+    table = (root / "benchmarks" / "results" / "dissimilarity.md").read_text(encoding="utf-8")
+    assert markdown(about, found) == table
+    assert found["collection"]["invariant"]["nearest of the same class, %"]["all"] >= 95
+    for where in ("built-in", "TOSCA"):
+        for kind in ("distortion", "bound"):
+            assert found[where][kind]["dog to dog, at most"] < 0.8 * found[where][kind]["dog to cat, at least"]
 
 
 def test_metrics_keep_what_their_definition_promises(numbers) -> None:

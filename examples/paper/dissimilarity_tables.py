@@ -20,7 +20,7 @@ def table(names: Sequence[str], matrix: Any) -> list[str]:
 def markdown(about: str, numbers: Numbers) -> str:
     """The tables of benchmarks/results/dissimilarity.md, under what the docstring `about` says after its first line."""
     about = " ".join(about.split("\n\n", 1)[1].split())
-    lines = ["# Dissimilarity", "", f"`python examples/paper/dissimilarity.py`. {about}", ""]
+    lines = ["# Dissimilarity", "", f"`python examples/paper/dissimilarity.py --data DATA --report FILE`. {about}", ""]
     lines += ["## Are two dogs whose ears and sizes differ closer to each other than to a cat?", ""]
     lines += ["| | | dog to dog, at most | dog to cat, at least |", "|---|---|---|---|"]
     asked = [(where, numbers[where]) for where in ("built-in", "TOSCA") if where in numbers]
@@ -33,7 +33,7 @@ def markdown(about: str, numbers: Numbers) -> str:
         lines += [f"Distortion, {where}:", "", *table(one["names"], one["distortion"]["matrix"])]
     if "collection" in numbers:
         lines += collection_tables(numbers)
-    return "\n".join(lines)
+    return "\n".join(lines).replace("\n\n\n", "\n\n")
 
 
 def collection_tables(numbers: Numbers) -> list[str]:
