@@ -2,9 +2,9 @@
 
     GMDS_DATA=... python benchmarks/match_cost.py [--sizes 5k,50k,250k]
 
-Two poses of a TOSCA cat; the large ones are `tosca_hires` meshes with every face divided, whose vertices correspond. One
-is decimated to the size, so that triangles do not. Each size runs in a process of its own after a small match, so that
-kernels are compiled. Writes results/match_cost.md.
+Two poses of a TOSCA cat; the large ones are `tosca_hires` meshes with every face divided, whose vertices correspond.
+One is decimated to the size, so that triangles do not. Each size runs in a process of its own after a small match, so
+that kernels are compiled. Writes results/match_cost.md.
 """
 
 from __future__ import annotations

@@ -11,13 +11,14 @@ import threading
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
-from typing import ParamSpec, TypeVar
+from typing import Any, Generic, ParamSpec, Self, TypeVar, overload
 
 from threadpoolctl import threadpool_limits
 
 P = ParamSpec("P")
 R = TypeVar("R")
 S = TypeVar("S")
+T = TypeVar("T")
 
 _lock = threading.Lock()
 _running = 0
@@ -68,3 +69,28 @@ def side_by_side(function: Callable[[S], R], items: Iterable[S]) -> list[R]:
         return [function(item) for item in given]
     with ThreadPoolExecutor(count) as pool:
         return list(pool.map(function, given))
+
+
+class cached_property(Generic[T]):
+    """`functools.cached_property`, which before Python 3.12 lets one thread in at a time, whatever the object.
+
+    Two threads that ask the same object at once may both compute; either result is kept.
+    """
+
+    def __init__(self, function: Callable[[Any], T]) -> None:
+        self.function = function
+        self.__doc__ = function.__doc__
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = name
+
+    @overload
+    def __get__(self, instance: None, owner: type) -> Self: ...
+
+    @overload
+    def __get__(self, instance: object, owner: type) -> T: ...
+
+    def __get__(self, instance: object | None, owner: type) -> T | Self:
+        if instance is None:
+            return self
+        return instance.__dict__.setdefault(self.name, self.function(instance))  # type: ignore[no-any-return]

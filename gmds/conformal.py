@@ -8,7 +8,6 @@ curvature; this one needs a rough map, and measures areas only. Both are conform
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -19,6 +18,7 @@ import scipy.sparse.linalg as sla
 from numpy.typing import NDArray
 
 from geodesics import Spectrum, embedded, stiffness
+from geodesics.threads import cached_property
 from gmds.surface import Surface, View
 
 Array = NDArray[np.float64]
@@ -38,7 +38,7 @@ class ConformalClass:
     surface: Surface
     times: tuple[float, ...]
 
-    @functools.cached_property
+    @cached_property
     def basis(self) -> Array:
         """Functions (n, q) orthonormal in area: eigenfunctions of space, and what those of (2.1) add to them."""
         regular, weight = self.surface.regular.functions, self.surface.areas[:, None]
@@ -48,7 +48,7 @@ class ConformalClass:
         kept = values > 1e-4
         return np.hstack([regular, others @ (vectors[:, kept] / np.sqrt(values[kept]))])
 
-    @functools.cached_property
+    @cached_property
     def energy(self) -> Array:
         """Dirichlet energy (q, q) of the basis, the same in every conformal metric."""
         return self.basis.T @ (stiffness(embedded(self.surface.mesh)) @ self.basis)
@@ -62,7 +62,7 @@ class ConformalClass:
         values[0] = 0.0  # the constant, up to rounding
         return View(self.surface.mesh, Spectrum(self.surface.mesh, mass, np.maximum(values, 0), self.basis @ vectors))
 
-    @functools.cached_property
+    @cached_property
     def _smoothers(self) -> dict[float, Callable[[Array], Array]]:
         """One implicit heat step for each of the times."""
         used = self.surface.regular.usable

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -13,6 +12,7 @@ import scipy.sparse.linalg as sla
 from numpy.typing import NDArray
 
 from geodesics import Mesh, embedded, stiffness
+from geodesics.threads import cached_property
 from gmds._kernels.rotations import nearest_rotations
 
 Array = NDArray[np.float64]
@@ -38,25 +38,25 @@ class Elasticity:
     mesh: Mesh
     areas: Array
 
-    @functools.cached_property
+    @cached_property
     def _weights(self) -> sp.csr_matrix:
         """w_ij (n, n); at an obtuse angle on the boundary the cotangent is negative, and counts as 0."""
         cotangents = sp.csr_matrix(-stiffness(embedded(self.mesh)))
         cotangents.setdiag(0)
         return sp.csr_matrix(cotangents.maximum(0))
 
-    @functools.cached_property
+    @cached_property
     def stiffness(self) -> sp.csr_matrix:
         """The Laplace matrix (n, n) of these weights."""
         return sp.csr_matrix(sp.diags(np.asarray(self._weights.sum(axis=1)).ravel()) - self._weights)
 
-    @functools.cached_property
+    @cached_property
     def _rest(self) -> tuple[Array, Array, Array]:
         """L x and W x (n, 3), and sum_j w_ij |x_i - x_j|^2 (n,)."""
         x = self.mesh.vertices
         return self.stiffness @ x, self._weights @ x, self._spread(x)
 
-    @functools.cached_property
+    @cached_property
     def _ordered(self) -> tuple[Index, sp.csc_matrix, Index]:
         """An order (n,) of the vertices with little fill-in, L in that order, and where its diagonal is stored."""
         filled = (self.stiffness + sp.identity(len(self.areas))).tocsc()
@@ -69,7 +69,7 @@ class Elasticity:
         rest.data[diagonal] -= 1.0
         return order, rest, diagonal
 
-    @functools.cached_property
+    @cached_property
     def _solvers(self) -> dict[float, Solver]:
         return {}
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +13,7 @@ from geodesics import Mesh, SurfacePoints
 from geodesics.closest import closest_on_triangles
 from geodesics.curvature import one_ring_areas
 from geodesics.delaunay import proper_faces
+from geodesics.threads import cached_property
 from geodesics.topology import boundary_vertices
 from gmds._kernels.closest import closest_on_faces
 from gmds.elasticity import Elasticity
@@ -53,12 +53,12 @@ class Geometry:
         origin = used[cKDTree(surface.mesh.vertices[used]).query(mesh.vertices)[1]]
         return cls(mesh, origin, surface.squashed_curvature[origin])
 
-    @functools.cached_property
+    @cached_property
     def usable(self) -> Index:
         """Vertices with area."""
         return np.flatnonzero(self.areas > 0)
 
-    @functools.cached_property
+    @cached_property
     def boundary(self) -> NDArray[np.bool_]:
         """Whether a vertex (n,) is on an edge of a single face."""
         return boundary_vertices(self.mesh)
@@ -68,23 +68,23 @@ class Geometry:
         inside = np.where(self.boundary[self.mesh.faces[points.face]], 0.0, points.barycentric)
         return np.asarray(inside.sum(axis=1) <= 0, dtype=np.bool_)
 
-    @functools.cached_property
+    @cached_property
     def areas(self) -> Array:
         """Area (n,) around each vertex; the sum is 1."""
         areas = one_ring_areas(self.mesh)
         return np.asarray(areas / areas.sum(), dtype=np.float64)
 
-    @functools.cached_property
+    @cached_property
     def elasticity(self) -> Elasticity:
         """What it costs to deform it."""
         return Elasticity(self.mesh, self.areas)
 
-    @functools.cached_property
+    @cached_property
     def normals(self) -> Array:
         """Unit normals (n, 3), means over the faces around each vertex weighted by area."""
         return self.features[:, 3:] / NORMAL_WEIGHT
 
-    @functools.cached_property
+    @cached_property
     def features(self) -> Array:
         """Positions and weighted normals (n, 6)."""
         return self.moved_features(self.mesh.vertices)
@@ -96,24 +96,24 @@ class Geometry:
         size = np.linalg.norm(normals, axis=1, keepdims=True)
         return np.hstack([y, NORMAL_WEIGHT * normals / np.maximum(size, np.finfo(float).tiny)])
 
-    @functools.cached_property
+    @cached_property
     def _around(self) -> sp.csr_matrix:
         """Sums over the faces around each vertex, (n, m)."""
         n, m = self.mesh.n_vertices, self.mesh.n_faces
         rows = np.repeat(np.arange(m), 3)
         return sp.csr_matrix((np.ones(3 * m), (self.mesh.faces.ravel(), rows)), shape=(n, m))
 
-    @functools.cached_property
+    @cached_property
     def tree(self) -> cKDTree:
         """Search tree of the features of the usable vertices."""
         return cKDTree(self.features[self.usable])
 
-    @functools.cached_property
+    @cached_property
     def places(self) -> cKDTree:
         """Search tree of the vertices in space."""
         return cKDTree(self.mesh.vertices)
 
-    @functools.cached_property
+    @cached_property
     def _rings(self) -> tuple[Index, Index]:
         """Faces of each vertex, one after the other, and where those of a vertex start."""
         corners = self.mesh.faces.ravel()

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import functools
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geodesics import SurfacePoints
+from geodesics.threads import cached_property
 from gmds.derived import derived_once
 from gmds.geometry import Geometry
 from gmds.problem import joined
@@ -34,22 +34,22 @@ class SurfacePair:
     known: Known | None = None
     reflected: bool = False
 
-    @functools.cached_property
+    @cached_property
     def outlines(self) -> tuple[Geometry, Geometry]:
         """Both surfaces with few faces."""
         return outline(self.source), outline(self.target)
 
-    @functools.cached_property
+    @cached_property
     def geometries(self) -> tuple[Geometry, Geometry]:
         """Both surfaces with all their faces."""
         return geometry(self.source), geometry(self.target)
 
-    @functools.cached_property
+    @cached_property
     def refiner(self) -> Refiner:
         """Refines maps in the metric in which they keep area."""
         return Refiner(self.source, self.target)
 
-    @functools.cached_property
+    @cached_property
     def reflections(self) -> tuple[Index | None, Index | None]:
         """A self-map that reverses orientation of the source, or else of the target, if there is one."""
         ours = reversing(self.source)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import copy
-import functools
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from geodesics import Distance, SurfacePoints
+from geodesics.threads import cached_property
 from geodesics.tracing import barycentric_gradient
 from gmds.jacobian import Jacobian, scaled
 from gmds.pairwise import Pairs, pairwise
@@ -113,24 +113,24 @@ class Placement:
     points: SurfacePoints
     pairs: Pairs
 
-    @functools.cached_property
+    @cached_property
     def distances(self) -> Array:
         """Distances between the target points, (p, p)."""
         return self.pairs.distances()
 
-    @functools.cached_property
+    @cached_property
     def residuals(self) -> Array:
         """r_ij (r,), without dimension."""
         return self.problem.compare(self.distances)
 
-    @functools.cached_property
+    @cached_property
     def shares(self) -> Array:
         """The sum of the squared residuals of each sample, (p,)."""
         problem, square = self.problem, self.residuals**2
         share = [np.bincount(side, square, len(problem)) for side in (problem.first, problem.second)]
         return np.add(*share).astype(np.float64)
 
-    @functools.cached_property
+    @cached_property
     def derivatives(self) -> Array:
         """Of the residuals by the in-face displacement of their two points, (r, 2, 2)."""
         first, second = self.problem.first, self.problem.second
@@ -139,7 +139,7 @@ class Placement:
         factor = np.where(np.isfinite(self.distances[first, second]), self.problem.root_weights, 0.0)
         return raw * (-factor / self.problem.unit)[:, None, None]
 
-    @functools.cached_property
+    @cached_property
     def jacobian(self) -> Jacobian:
         """The derivative in steps measured in distances."""
         problem = self.problem
@@ -149,7 +149,7 @@ class Placement:
         smallest = np.finfo(float).tiny
         return scaled(problem.first, problem.second, self.derivatives, len(problem), np.maximum(weight, smallest))
 
-    @functools.cached_property
+    @cached_property
     def walled_jacobian(self) -> Jacobian:
         """The same with walls: no weight of a point may fall below zero, so that no point leaves its face."""
         slope = np.einsum("pkx,pxy->pky", barycentric_gradient(self.points), self.jacobian.frames)

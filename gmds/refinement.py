@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from geodesics.threads import cached_property
 from gmds.conformal import ConformalClass
 from gmds.functional_maps import nearest_rows, spectral_upsampling
 from gmds.surface import Surface, View
@@ -36,19 +36,19 @@ class Refiner:
     source: Surface
     target: Surface
 
-    @functools.cached_property
+    @cached_property
     def factors(self) -> ConformalClass:
         """The metrics of the target among which the right one is sought."""
         return ConformalClass(self.target, tuple(time for time, _ in ROUNDS))
 
-    @functools.cached_property
+    @cached_property
     def _carriers(self) -> tuple[Index, Array]:
         """Farthest points of the source, and the area nearest to each."""
         cells, used = self.source.regular.cells(CARRIERS), self.source.regular.usable
         share = np.bincount(cells.nearest[used], self.source.areas[used], len(cells.samples))
         return cells.samples, share.astype(np.float64)
 
-    @functools.cached_property
+    @cached_property
     def _goals(self) -> Index:
         """Farthest points of the target."""
         return self.target.regular.samples(GOALS)

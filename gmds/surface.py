@@ -23,6 +23,7 @@ from geodesics.curvature import mean_curvature
 from geodesics.intrinsic import areas, squared_lengths
 from geodesics.orientation import orient_faces
 from geodesics.sampling import Cells, farthest_point_cells
+from geodesics.threads import cached_property
 from geodesics.topology import vertex_components
 from gmds.errors import TooFewVertices
 
@@ -67,7 +68,7 @@ class View:
         """Eigenvalues (k,), ascending from 0, of the metric of unit area."""
         return self.spectrum.eigenvalues
 
-    @functools.cached_property
+    @cached_property
     def usable(self) -> Index:
         """Vertices that belong to the surface."""
         return np.flatnonzero(self.spectrum.mass > 0)
@@ -82,7 +83,7 @@ class View:
         """The commute-time distance (3.2) by the first `count` eigenfunctions."""
         return CommuteTimeDistance(self.first(count).spectrum)
 
-    @functools.cached_property
+    @cached_property
     def embedding(self) -> Array:
         """The embedding (n, k - 1) whose Euclidean distances are commute-time distances (3.2)."""
         return self.distance(len(self.eigenvalues)).embedding
@@ -101,7 +102,7 @@ class View:
             self.sampled[count] = farthest_point_cells(distance, count, first)
         return self.sampled[count]
 
-    @functools.cached_property
+    @cached_property
     def sampled(self) -> dict[int, Cells]:
         """The cells that were asked for, by the number of samples: those of fewer begin those of more."""
         return {}
@@ -122,48 +123,48 @@ class Surface:
         """The surface in a metric."""
         return View.of(eigenpairs(metric(self.mesh), self.count))
 
-    @functools.cached_property
+    @cached_property
     def views(self) -> tuple[View, ...]:
         """The surface in members of the family |K|^a g, from the scale-invariant metric (2.1) to that of space."""
         curved = [functools.partial(scale_invariant, exponent=a, smoothing=SMOOTHING) for a in EXPONENTS]
         return (*(self.view(metric) for metric in curved), self.regular)
 
-    @functools.cached_property
+    @cached_property
     def regular(self) -> View:
         """The surface in the metric of space."""
         return self.detail.first(self.count)
 
-    @functools.cached_property
+    @cached_property
     def detail(self) -> View:
         """The same with more eigenfunctions."""
         return View.of(eigenpairs(embedded(self.mesh), min(DETAIL_FUNCTIONS, self._most)))
 
-    @functools.cached_property
+    @cached_property
     def count(self) -> int:
         """Number of eigenfunctions in each view."""
         return min(EIGENFUNCTIONS, self._most)
 
-    @functools.cached_property
+    @cached_property
     def _most(self) -> int:
         """Number of eigenfunctions there are."""
         return len(np.unique(self.mesh.faces)) - 1
 
-    @functools.cached_property
+    @cached_property
     def areas(self) -> Array:
         """Area (n,) around each vertex."""
         return self.regular.spectrum.mass
 
-    @functools.cached_property
+    @cached_property
     def reflection(self) -> Surface:
         """The mirror image of the surface."""
         return measure(self.original, reflected=True)
 
-    @functools.cached_property
+    @cached_property
     def derived(self) -> dict[str, Any]:
         """What `gmds.derived` keeps here, by name."""
         return {}
 
-    @functools.cached_property
+    @cached_property
     def squashed_curvature(self) -> Array:
         """Mean curvature (n,), squashed to [-1, 1] so that finger tips do not outvote the rest."""
         curvature = mean_curvature(self.mesh, DETAIL)

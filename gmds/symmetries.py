@@ -8,10 +8,12 @@ from numpy.typing import NDArray
 from gmds.initialization import eigenfunction_signs
 from gmds.orientation import vertex_map_orientation
 from gmds.surface import Surface, View
-from gmds.upsampling import SampledPair
+from gmds.upsampling import COARSE, SampledPair
 
 Index = NDArray[np.int64]
 
+EARLY = 3  # steps of refinement before the unlikely are dropped
+LIKELY = 16  # that are not
 MOST_STRESS = 0.2  # relative: above, a self-map is no symmetry
 REVERSED = -0.3  # orientation score below which a self-map counts as reversing
 
@@ -20,10 +22,12 @@ def mirror(surface: Surface, view: View) -> Index | None:
     """The best orientation-reversing self-map (n,) of a surface in one of its views; None when it has none.
 
     In the eigenfunctions of a symmetric surface a symmetry is a diagonal of signs (Ovsjanikov, Sun, Guibas 2008), so
-    all signs of the first few are tried and refined.
+    all signs of the first few are tried, and the likely ones refined to the end.
     """
     pair = SampledPair.of(view, view, -1)
-    maps = [pair.refined(images) for images in eigenfunction_signs(pair)]
+    begun = [pair.refined(images, COARSE[:EARLY]) for images in eigenfunction_signs(pair)]
+    likely = np.argsort([pair.stress(images) for images in begun], kind="stable")[:LIKELY]
+    maps = [pair.refined(begun[i], COARSE[EARLY:]) for i in likely]
     for i in np.argsort([pair.stress(images) for images in maps], kind="stable"):
         if pair.stress(maps[i]) > MOST_STRESS:
             return None

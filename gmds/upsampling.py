@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -10,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geodesics.euclidean import euclidean_distances
+from geodesics.threads import cached_property
 from gmds.functional_maps import functional_map, nearest_rows
 from gmds.orientation import orientation_forms, pulled_back_forms
 from gmds.surface import View
@@ -44,17 +44,17 @@ class SampledPair:
         """The pair with the usual numbers of samples."""
         return cls(source, target, source.samples(SOURCE_SAMPLES), target.samples(TARGET_SAMPLES), sense)
 
-    @functools.cached_property
+    @cached_property
     def source_rows(self) -> Array:
         """Eigenfunctions at the source samples (p, k)."""
         return self.source.functions[self.source_samples]
 
-    @functools.cached_property
+    @cached_property
     def target_rows(self) -> Array:
         """Eigenfunctions at the target samples (q, k)."""
         return self.target.functions[self.target_samples]
 
-    @functools.cached_property
+    @cached_property
     def _forms(self) -> tuple[Array, Array, Array]:
         """Forms of the source, scaled and rooted, of the target, and the scale of the source's."""
         here = _signed_root(orientation_forms(self.source, self.source_samples))
@@ -62,7 +62,7 @@ class SampledPair:
         there = self.sense * orientation_forms(self.target, self.target_samples)
         return here * scale * abs(self.sense), there, scale
 
-    @functools.cached_property
+    @cached_property
     def _inverses(self) -> dict[int, Array]:
         """Pseudo-inverses of the source rows, shared by all starts."""
         sizes = [k for k in COARSE if k <= self.source_rows.shape[1]]
@@ -99,7 +99,7 @@ class SampledPair:
         rows = self.target.functions[goals, :k] @ self.matrix(images, k).T
         return goals[nearest_rows(self.source.functions[vertices, :k], rows)]
 
-    @functools.cached_property
+    @cached_property
     def source_distances(self) -> Array:
         """Commute-time distances between the first source samples, a square array."""
         rows = self.source.embedding[self.source_samples[:JUDGED], :FUNCTIONS]

@@ -6,6 +6,7 @@ import hashlib
 import os
 import subprocess
 import sys
+import threading
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,7 @@ import pytest
 import scipy.linalg
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from geodesics.threads import on_one_blas_thread, one_blas_thread, side_by_side
+from geodesics.threads import cached_property, on_one_blas_thread, one_blas_thread, side_by_side
 from geodesics.threads import threads as allowed
 
 
@@ -83,3 +84,27 @@ def test_a_number_of_threads_that_is_none_is_not_heeded(monkeypatch: pytest.Monk
     for word in ("0", "-2", "many", ""):
         monkeypatch.setenv("GMDS_THREADS", word)
         assert allowed() == default >= 1
+
+
+class Both:
+    """Its property is done when two objects are at it at the same time."""
+
+    barrier = threading.Barrier(2)
+
+    def __init__(self) -> None:
+        self.times = 0
+
+    @cached_property
+    def met(self) -> int:
+        """Computed once."""
+        self.times += 1
+        return self.barrier.wait(timeout=20)
+
+
+def test_cached_properties_of_two_objects_are_computed_side_by_side(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("GMDS_THREADS", "2")
+    both = [Both(), Both()]
+    assert sorted(side_by_side(lambda one: one.met, both)) == [0, 1]
+    assert [one.met for one in both] == [vars(one)["met"] for one in both]
+    assert [one.times for one in both] == [1, 1]
+    assert Both.met.__doc__ == "Computed once."
