@@ -31,7 +31,9 @@ ROOT = Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "benchmarks" / "results"
 CODE = ["geodesics", "gmds", ":!gmds/cli", ":!gmds/page"]
 SMALL = 600  # vertices of the shape that workers warm up on
-ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
+ONE_THREAD = dict.fromkeys(
+    ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS", "GMDS_THREADS"), "1"
+)
 
 Rows = dict[tuple[str, str], BenchmarkRow]  # (matcher, pair) -> row
 COLUMNS = ("matcher", "version", *(column.name for column in fields(BenchmarkRow)))

@@ -56,7 +56,9 @@ def test_a_map_does_not_depend_on_the_number_of_threads() -> None:
     )
     digests = set()
     for count in ("1", "2"):
-        variables = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"), count)
+        variables = dict.fromkeys(
+            ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS", "GMDS_THREADS"), count
+        )
         done = subprocess.run(
             [sys.executable, "-c", code],
             env={**os.environ, **variables, "PYTHONHASHSEED": count},

@@ -43,6 +43,7 @@ def local_client(workers: int | None = None) -> Iterator[Any]:
         cluster = distributed.LocalCluster(
             n_workers=workers,
             threads_per_worker=1,
+            env={"GMDS_THREADS": "1"},  # there is a worker for every processor
             processes=True,
             dashboard_address="127.0.0.1:0",  # any port: others may run on this machine
             silence_logs=logging.CRITICAL,
