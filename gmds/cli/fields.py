@@ -59,7 +59,8 @@ def write_field(path: Path, arrays: Mapping[str, NDArray[Any]], columns: Mapping
     ending = path.suffix.lower()
     with atomic_write(path) as stream:
         if ending == ".npz":
-            np.savez(stream, allow_pickle=False, **arrays)
+            packed: dict[str, Any] = dict(arrays)
+            np.savez_compressed(stream, **packed)
         elif ending == ".npy":
             np.save(stream, next(iter(arrays.values())), allow_pickle=False)
         else:
