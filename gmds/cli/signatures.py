@@ -63,7 +63,7 @@ def command(
 
     Without --times there are 16 (si-hks: 64), over the range that the eigenfunctions resolve. A .npz holds `signature`,
     a row for every vertex, and `times` for hks and scaled-hks; a .csv has a line for every vertex. The picture shows
-    the first, the middle and the last column, each in the range of its own. Metrics are those of `gmds match`.
+    the first, the middle and the last column, each in the range of its own. Metrics are those of `gmds match --metric`.
     """
     import time
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 @click.option(
     "--values", required=True, type=EndingIn(".npy", ".csv", ".txt"), help="A row for every vertex of the target."
 )
-@click.option("--labels", is_flag=True, help="Values are names: the heaviest corner's wins, nothing is interpolated.")
+@click.option("--labels", is_flag=True, help="Values are names: the one of largest weight wins.")
 @click.option("-o", "--output", required=True, type=EndingIn(".npy", ".csv"), help="Where the carried values go.")
 @picture_option
 @json_option
@@ -47,7 +47,7 @@ def command(
     a vertex gets the one with the largest weight there. A .npy holds an array with a row for every vertex; text has a
     line for every vertex, entries with commas (.csv) or blanks (.txt) between them, and perhaps a header, whose first
     column may be `vertex`, as in the files that gmds writes. Vertices without a counterpart (not valid in the map) get
-    the values at the place nearest to where they would be. The picture shows the first column.
+    the values at the point that the map holds for them all the same. The picture shows the first column.
     """
     from geodesics import read_mesh
     from gmds import Correspondence

@@ -30,7 +30,8 @@ def command(
 
     A .npz holds `samples`, the vertices chosen, in order; for every vertex `cell`, the place of the nearest one in that
     order, from 0, and its `distance`. A .csv has a line for every vertex, with the nearest sample itself as well. A
-    vertex that no sample reaches is in cell -1. Metrics and diffusion time are those of `gmds match`.
+    vertex that no sample reaches is in cell -1. Metrics and diffusion time are those of
+    `gmds match --metric --distance`.
     """
     import time
 
