@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 if TYPE_CHECKING:
-    from geodesics import Mesh
+    from geodesics import Mesh, Metric, Spectrum
 
 METRICS = ("embedded", "scale-invariant", "min-curvature", "equi-affine", "affine")
 DISTANCES = ("biharmonic", "commute-time", "diffusion", "geodesic")
@@ -20,6 +20,22 @@ LOSSES = ("least-squares", "huber", "power", "minimax")
 metric_option = click.option("--metric", type=click.Choice(METRICS), help="Metric in which distances are measured.")
 distance_option = click.option("--distance", type=click.Choice(DISTANCES), help="Distance that the map preserves.")
 loss_option = click.option("--loss", type=click.Choice(LOSSES), help="How the misfit of distances is added up.")
+
+
+def chosen_metric(name: str) -> Callable[[Mesh], Metric]:
+    """The function Mesh -> Metric that a name stands for."""
+    import geodesics
+
+    measure: Callable[..., Metric] = getattr(geodesics, name.replace("-", "_"))
+    return functools.partial(measure, smoothing=SMOOTHING) if name == "scale-invariant" else measure
+
+
+def chosen_spectrum(metric: str, mesh: Mesh) -> Spectrum:
+    """As many eigenpairs of a mesh in the metric of that name as match uses, or as it has."""
+    from geodesics import eigenpairs
+    from gmds.surface import EIGENFUNCTIONS
+
+    return eigenpairs(chosen_metric(metric)(mesh), min(EIGENFUNCTIONS, mesh.n_vertices - 1))
 
 
 @dataclass(frozen=True)
@@ -32,19 +48,15 @@ class ChosenDistance:
     def __call__(self, mesh: Mesh) -> Any:
         import geodesics
         from gmds.candidates import TIME
-        from gmds.surface import EIGENFUNCTIONS
 
-        measure = getattr(geodesics, self.metric.replace("-", "_"))
-        if self.metric == "scale-invariant":
-            measure = functools.partial(measure, smoothing=SMOOTHING)
         if self.distance == "geodesic":
-            return geodesics.GeodesicDistance(measure(mesh))
+            return geodesics.GeodesicDistance(chosen_metric(self.metric)(mesh))
         spectral: dict[str, Callable[[geodesics.Spectrum], Any]] = {
             "biharmonic": geodesics.BiharmonicDistance,
             "commute-time": geodesics.CommuteTimeDistance,
             "diffusion": lambda spectrum: geodesics.DiffusionDistance(spectrum, TIME),  # the time that match compares
         }
-        return spectral[self.distance](geodesics.eigenpairs(measure(mesh), min(EIGENFUNCTIONS, mesh.n_vertices - 1)))
+        return spectral[self.distance](chosen_spectrum(self.metric, mesh))
 
 
 def chosen_distance(metric: str | None, distance: str | None) -> ChosenDistance | None:

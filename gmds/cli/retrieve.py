@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from gmds.cli.group import BAD_INPUT, UNFINISHED, Command
-from gmds.cli.output import emit, json_option, note, progress_bar, seed_option
+from gmds.cli.output import cell, emit, json_option, note, progress_bar, seed_option
 
 if TYPE_CHECKING:
     from gmds.retrieval import Described
@@ -87,8 +87,6 @@ def _write(path: Path, rows: list[dict[str, Any]]) -> None:
     writer = csv.DictWriter(text, COLUMNS)
     writer.writeheader()
     for row in rows:
-        # a name that a spreadsheet would run as a formula is quoted
-        name = f"'{row['mesh']}" if row["mesh"][:1] in ("=", "+", "-", "@") else row["mesh"]
-        writer.writerow(row | {"mesh": name, "distance": f"{row['distance']:.6g}"})
+        writer.writerow(row | {"mesh": cell(row["mesh"]), "distance": f"{row['distance']:.6g}"})
     with atomic_write(path) as stream:
         stream.write(text.getvalue().encode("utf-8"))

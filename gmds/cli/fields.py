@@ -1,0 +1,89 @@
+"""Values on the vertices of a surface: the options, files and pictures that several commands share."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from gmds.cli.choices import DISTANCES, METRICS
+from gmds.cli.output import cell, note
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from geodesics import Mesh
+
+
+class EndingIn(click.Path):
+    """A path whose ending says the format, refused before anything is computed when the ending is another."""
+
+    def __init__(self, *endings: str) -> None:
+        super().__init__(path_type=Path)
+        self.endings = endings
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The path; a usage error that names it when its ending is none of the endings."""
+        path = Path(os.fsdecode(super().convert(value, param, ctx)))
+        if path.suffix.lower() not in self.endings:
+            self.fail(f"{str(path)!r} must end in {' or '.join(self.endings)}", param, ctx)
+        return path
+
+
+FILE = click.Path(path_type=Path)
+metric_option = click.option(
+    "--metric", type=click.Choice(METRICS), default="embedded", show_default=True, help="Metric of the surface."
+)
+distance_option = click.option(
+    "--distance", type=click.Choice(DISTANCES), default="geodesic", show_default=True, help="Distance in that metric."
+)
+output_option = click.option(
+    "-o", "--output", required=True, type=EndingIn(".npz", ".csv"), help="Where the values go: .npz or .csv."
+)
+picture_option = click.option("--picture", type=EndingIn(".png"), help="Write a PNG of the surface as well.")
+
+
+def write_field(path: Path, arrays: Mapping[str, NDArray[Any]], columns: Mapping[str, NDArray[Any]]) -> None:
+    """Write the arrays (.npz), the first of them (.npy), or a table with the columns and a row a vertex (.csv).
+
+    The file is complete or untouched. Numbers in a table keep every bit.
+    """
+    import numpy as np
+
+    from geodesics.io import atomic_write
+
+    ending = path.suffix.lower()
+    with atomic_write(path) as stream:
+        if ending == ".npz":
+            packed: dict[str, Any] = dict(arrays)
+            np.savez_compressed(stream, **packed)
+        elif ending == ".npy":
+            np.save(stream, next(iter(arrays.values())), allow_pickle=False)
+        else:
+            stream.write(_table(columns).encode("utf-8"))
+
+
+def draw(path: Path | None, surfaces: list[tuple[str, Mesh, NDArray[np.generic]]], *, labels: bool = False) -> None:
+    """The picture of (caption, mesh, values) that was asked for, named on stderr once it is written."""
+    if path is None:
+        return
+    from gmds.pictures import write_values
+
+    write_values(path, surfaces, labels=labels)
+    note(f"wrote {path}")
+
+
+def _table(columns: Mapping[str, NDArray[Any]]) -> str:
+    import csv
+    import io
+
+    text = io.StringIO(newline="")
+    writer = csv.writer(text)
+    writer.writerow(["vertex", *columns])
+    for row in enumerate(zip(*(column.tolist() for column in columns.values()), strict=True)):
+        writer.writerow([row[0], *(cell(value) if isinstance(value, str) else value for value in row[1])])
+    return text.getvalue()
