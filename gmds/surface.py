@@ -10,15 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from geodesics import (
-    CommuteTimeDistance,
-    Mesh,
-    Metric,
-    Spectrum,
-    eigenpairs,
-    embedded,
-    scale_invariant,
-)
+from geodesics import CommuteTimeDistance, Mesh, Metric, Spectrum, eigenpairs, embedded, scale_invariant
 from geodesics.curvature import mean_curvature
 from geodesics.intrinsic import areas, squared_lengths
 from geodesics.orientation import orient_faces
