@@ -12,6 +12,7 @@ main = LazyGroup(
         "demo",
         "match",
         "batch",
+        "landmarks",
         "evaluate",
         "compare",
         "symmetry",
