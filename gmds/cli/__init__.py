@@ -21,5 +21,7 @@ main = LazyGroup(
         "check",
         "repair",
         "benchmark",
+        "doctor",
+        "warmup",
     ),
 )
