@@ -46,39 +46,50 @@ def invert(answer: Correspondence) -> Correspondence:
 
 
 def compose(first: Correspondence, second: Correspondence) -> Correspondence:
-    """The map that sends a source vertex through `first`, and its point through `second`.
+    """The map that sends a source vertex through `first`, and its point through `second` (see `image`).
 
-    The three corners of the face a point lies on have images under `second`. When these lie on one face, or the point
-    is a corner, the image follows exactly; else it is the surface point nearest to their weighted mean. Where `second`
-    tears the face (as in `invert`) the heaviest corner decides.
     A row is `valid` when `first` is there and `second` is at every corner with weight; distortions add.
     Raises `MapError` when `second` does not start on the mesh where `first` ends.
     """
     if first.target is not second.source:
         raise MapError("the second map must start on the very mesh (the same object) on which the first one ends")
-    corners = first.target.faces[first.points.face]
-    weights = first.points.barycentric
+    points, valid, distortion = image(second, first.points)
+    status = max(first.status, second.status, key=lambda status: status.rank)
+    return Correspondence(
+        first.source, second.target, points, first.valid & valid, first.distortion + distortion, status
+    )
+
+
+def image(answer: Correspondence, points: SurfacePoints) -> tuple[SurfacePoints, NDArray[np.bool_], Array]:
+    """Where a map sends points (p) of its source, anywhere on the faces; `valid` (p,) and `distortion` (p,) there.
+
+    The three corners of the face a point lies on have images. When these lie on one face, or the point is a corner,
+    the image follows exactly; else it is the surface point nearest to their weighted mean. Where the map tears the
+    face (as in `invert`) the heaviest corner decides. A point is `valid` when every corner with weight is; distortion
+    is interpolated. Raises `MapError` when the points lie on another mesh.
+    """
+    if points.mesh is not answer.source:
+        raise MapError("the points must lie on the very mesh (the same object) on which the map starts")
+    corners = answer.source.faces[points.face]
+    weights = points.barycentric
     rows = np.arange(len(corners))
-    heaviest = second.points[corners[rows, weights.argmax(axis=1)]]
-    corner_face, corner_weights = second.points.face[corners], second.points.barycentric[corners]
-    position = second.points.positions[corners]
+    heaviest = answer.points[corners[rows, weights.argmax(axis=1)]]
+    corner_face, corner_weights = answer.points.face[corners], answer.points.barycentric[corners]
+    position = answer.points.positions[corners]
 
     face, barycentric = heaviest.face.copy(), heaviest.barycentric.copy()
     inside = weights.max(axis=1) < 1 - 1e-12
     same = inside & (corner_face == corner_face[:, :1]).all(axis=1)
     face[same] = corner_face[same, 0]
     barycentric[same] = np.einsum("pk,pkj->pj", weights[same], corner_weights[same])
-    torn = _torn(second.source, second.points.positions, np.sqrt(second.target.area))[first.points.face]
+    torn = _torn(answer.source, answer.points.positions, np.sqrt(answer.target.area))[points.face]
     mixed = np.flatnonzero(inside & ~same & ~torn)
     if len(mixed):
         mean = np.einsum("pk,pkj->pj", weights[mixed], position[mixed])
-        face[mixed], barycentric[mixed], _ = closest_on_triangles(mean, second.target.vertices, second.target.faces)
+        face[mixed], barycentric[mixed], _ = closest_on_triangles(mean, answer.target.vertices, answer.target.faces)
 
-    valid = first.valid & (second.valid[corners] | (weights <= 0)).all(axis=1)
-    distortion = first.distortion + first.points.interpolate(second.distortion)
-    status = max(first.status, second.status, key=lambda status: status.rank)
-    points = SurfacePoints(second.target, face, barycentric)
-    return Correspondence(first.source, second.target, points, valid, distortion, status)
+    valid = np.all(answer.valid[corners] | (weights <= 0), axis=1)
+    return SurfacePoints(answer.target, face, barycentric), valid, points.interpolate(answer.distortion)
 
 
 def _torn(source: Mesh, image: Array, size: float) -> NDArray[np.bool_]:

@@ -44,6 +44,11 @@ def place_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> tuple[Surface
     return on_source, on_target, notes
 
 
+def place_on(given: Any, mesh: Mesh, name: str = "surface") -> SurfacePoints:
+    """Landmarks of one mesh, vertices (k,) or positions (k, 3), as points of it; raises as `check_landmarks`."""
+    return _place(given if isinstance(given, SurfacePoints) else _array(given), mesh, name, [])
+
+
 def _halves(landmarks: Any) -> tuple[Any, Any]:
     """The source half and the target half."""
     if isinstance(landmarks, (tuple, list)) and len(landmarks) == 2:

@@ -44,6 +44,16 @@ def _compiled(function: F, **options: Any) -> F:
         return numba.njit(**options)(function)  # type: ignore[no-any-return]
 
 
+def cache_folder() -> str | None:
+    """Where compiled kernels are kept; None where no directory for them can be written."""
+    path: str | None = njit(_probe).stats.cache_path  # type: ignore[attr-defined]
+    return path
+
+
+def _probe() -> None:
+    """Never called: where numba would keep this is where it keeps the kernels beside it."""
+
+
 @contextmanager
 def told_of_compiling(tell: Callable[[bool], None]) -> Iterator[None]:
     """Inside the block, `tell(True)` when a kernel begins to be compiled, not read from disk; then `tell(False)`."""

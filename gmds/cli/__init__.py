@@ -12,6 +12,7 @@ main = LazyGroup(
         "demo",
         "match",
         "batch",
+        "landmarks",
         "evaluate",
         "compare",
         "symmetry",
@@ -24,5 +25,7 @@ main = LazyGroup(
         "check",
         "repair",
         "benchmark",
+        "doctor",
+        "warmup",
     ),
 )

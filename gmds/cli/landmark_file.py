@@ -9,15 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from geodesics.errors import FormatError
-
-LARGEST = 50_000_000  # bytes
-
-
-class BadLandmarkFile(FormatError):
-    """A landmark file with a line that is neither two vertex numbers nor six coordinates."""
-
-    code = "E306"
+from gmds.landmark_files import BadLandmarkFile
+from gmds.landmark_files.reading import NUMBER, WHOLE, read_text
 
 
 def read_landmarks(path: Path) -> NDArray[np.int64] | tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -26,14 +19,7 @@ def read_landmarks(path: Path) -> NDArray[np.int64] | tuple[NDArray[np.float64],
     Lines of two whole numbers give vertex pairs (k, 2), 0-based; lines of six give positions (k, 3) on both.
     Blanks, commas or semicolons separate; `#` starts a comment. Raises `BadLandmarkFile` naming the line.
     """
-    if path.exists() and not path.is_file():
-        raise OSError(f"{path} is not a regular file")
-    if path.stat().st_size > LARGEST:
-        raise BadLandmarkFile(f"{path} is larger than {LARGEST // 1_000_000} MB")
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise BadLandmarkFile(f"{path} is not UTF-8 text ({error})") from error
+    text = read_text(path)
     rows = [(number, _words(line)) for number, line in enumerate(text.splitlines(), start=1)]
     rows = [(number, words) for number, words in rows if words]
     if not rows:
@@ -57,7 +43,7 @@ def _words(line: str) -> list[str]:
 def _numbers(path: Path, number: int, words: list[str], width: int) -> list[Any]:
     if len(words) != width:
         raise BadLandmarkFile(f"{path}, line {number}: {len(words)} entries where the first line has {width}")
-    pattern = r"[+-]?\d{1,18}" if width == 2 else r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?"
+    pattern = WHOLE if width == 2 else NUMBER
     wrong = [word for word in words if not re.fullmatch(pattern, word, re.ASCII)]
     if wrong:
         kind = "a whole number" if width == 2 else "a number"

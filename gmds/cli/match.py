@@ -9,6 +9,7 @@ import click
 
 from gmds.cli.choices import chosen_distance, chosen_loss, distance_option, loss_option, metric_option
 from gmds.cli.group import Command
+from gmds.cli.landmark_options import given_landmarks, space_option
 from gmds.cli.output import emit, json_option, note, progress_bar, seed_option
 
 FILE = click.Path(path_type=Path)
@@ -20,7 +21,8 @@ FILE = click.Path(path_type=Path)
 @click.option("-o", "--output", default="map.npz", show_default=True, type=FILE, help="Where the map goes.")
 @click.option("--report", type=FILE, help="Write a page to turn both surfaces in a browser.")
 @click.option("--picture", type=FILE, help="Write a PNG of both surfaces.")
-@click.option("--landmarks", type=FILE, help="Known points: two vertex numbers (from 0) or six coordinates a line.")
+@click.option("--landmarks", type=FILE, multiple=True, help="Known points; given once or twice, see above.")
+@space_option
 @click.option("--samples", type=int, help="How many samples the embedding places.")
 @click.option("--orientation", type=click.Choice(["preserve", "reverse", "any"]), default="preserve", show_default=True)
 @metric_option
@@ -32,6 +34,10 @@ def command(source: Path, target: Path, output: Path, as_json: bool, seed: int, 
     """Find for every vertex of SOURCE the point of TARGET that corresponds to it, and write the map.
 
     Meshes are OFF, OBJ, PLY, STL, GLB or TOSCA .vert/.tri files. The map is a .npz that numpy alone can read.
+
+    Landmarks are one file for both surfaces, with two vertex numbers (from 0) or six coordinates a line; or, with the
+    option given twice, a file for SOURCE then one for TARGET (.csv, .mrk.json, .fcsv, .tps, .pts, .vts), whose points
+    belong together by name when both have names, else by order.
     """
     import time
 
@@ -42,7 +48,7 @@ def command(source: Path, target: Path, output: Path, as_json: bool, seed: int, 
     wanted: dict[str, Any] = {
         "distance": chosen_distance(options["metric"], options["distance"]),
         "loss": chosen_loss(options["loss"]),
-        "landmarks": _landmarks(options["landmarks"]),
+        "landmarks": given_landmarks(options["landmarks"], options["space"]),
     }
     if options["samples"] is not None:
         wanted["n_samples"] = options["samples"]
@@ -81,11 +87,3 @@ def write_views(answer: Any, report: Path | None, picture: Path | None, **detail
 
         write_picture(picture, answer, **details)
         note(f"wrote {picture}")
-
-
-def _landmarks(path: Path | None) -> Any:
-    if path is None:
-        return None
-    from gmds.cli.landmark_file import read_landmarks
-
-    return read_landmarks(path)

@@ -1,0 +1,41 @@
+"""Landmarks on the command line: one file of pairs, or a file for each surface."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import click
+
+from gmds.cli.output import note
+
+space_option = click.option(
+    "--space",
+    type=click.Choice(["LPS", "RAS"]),
+    default="LPS",
+    show_default=True,
+    help="Frame of the meshes; landmarks of 3D Slicer in the other one are turned into it.",
+)
+
+
+def given_landmarks(paths: Sequence[Path], space: Any) -> Any:
+    """What `match` takes, from no file, one of pairs, or one for each surface; points on one only are told on stderr.
+
+    Raises `click.UsageError` for more than two.
+    """
+    if len(paths) > 2:
+        raise click.UsageError("--landmarks: give one file of pairs, or one for the source and one for the target")
+    if not paths:
+        return None
+    if len(paths) == 1:
+        from gmds.cli.landmark_file import read_landmarks as read_pairs
+
+        return read_pairs(paths[0])
+    from gmds.landmark_files import paired, read_landmarks
+
+    source, target, alone = paired(read_landmarks(paths[0], space), read_landmarks(paths[1], space))
+    if alone:
+        shown = ", ".join(alone[:8]) + (", ..." if len(alone) > 8 else "")
+        note(f"{len(alone)} landmarks are on one surface only and are not used: {shown}")
+    return source.at, target.at
