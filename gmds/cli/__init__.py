@@ -21,6 +21,7 @@ main = LazyGroup(
         "check",
         "repair",
         "benchmark",
+        "export",
         "doctor",
         "warmup",
     ),
