@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 VERTICES = 300  # enough for everything to have work, few enough for seconds
+SPARSE = 1200  # below some hundred vertices spectra are computed densely, by other means
 
 
 @dataclass(frozen=True)
@@ -25,7 +26,7 @@ class Warmth:
 
 def warm_up(progress: Callable[[str, float], None] | None = None) -> Warmth:
     """Compile all kernels by a tiny match and a few geodesic distances; once they are kept, this takes seconds."""
-    from geodesics import GeodesicDistance, SurfacePoints, farthest_point_sampling, scale_invariant
+    from geodesics import GeodesicDistance, SurfacePoints, eigenpairs, farthest_point_sampling, scale_invariant
     from geodesics.compiling import cache_folder, told_of_compiling
     from gmds.matching import match
     from gmds.shapes import quadruped
@@ -42,6 +43,7 @@ def warm_up(progress: Callable[[str, float], None] | None = None) -> Warmth:
         distance = GeodesicDistance(scale_invariant(source))
         distance.field(SurfacePoints(source, np.array([0]), np.full((1, 3), 1 / 3)))
         farthest_point_sampling(distance, 4)
+        eigenpairs(scale_invariant(quadruped(n_vertices=SPARSE)), 10)
         match(source, target, distance=lambda mesh: GeodesicDistance(scale_invariant(mesh)), n_samples=12)
         match(source, target, progress=progress)
     return Warmth(compiled, time.perf_counter() - started, cache_folder())

@@ -25,6 +25,7 @@ main = LazyGroup(
         "check",
         "repair",
         "benchmark",
+        "export",
         "doctor",
         "warmup",
     ),

@@ -74,7 +74,10 @@ def command(
         note(f"{len(marks.missing)} landmarks have no place on the source and are left out: {', '.join(marks.missing)}")
     rows = _told(carried)
     summary = {"landmarks": str(output), "status": answer.status.name, "meaning": answer.status.value}
-    emit({**summary, "carried": rows} if as_json else summary | {row.pop("name"): row for row in rows}, as_json)
+    emit(
+        {**summary, "carried": rows} if as_json else summary | {f"landmark {row.pop('name')}": row for row in rows},
+        as_json,
+    )
     lost = [name for name, valid in zip(carried.names, carried.valid, strict=True) if not valid]
     if lost:
         note(f"without a counterpart on the target: {', '.join(lost)}")
