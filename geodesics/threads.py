@@ -10,7 +10,7 @@ import os
 import threading
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from typing import Any, Generic, ParamSpec, Self, TypeVar, overload
 
 from threadpoolctl import threadpool_limits
@@ -61,14 +61,27 @@ def threads() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def side_by_side(function: Callable[[S], R], items: Iterable[S]) -> list[R]:
-    """The function of each item, in their order, on `threads()` threads; what is returned does not depend on these."""
-    given = list(items)
+def side_by_side(
+    function: Callable[[S], R], items: Iterable[S], progress: Callable[[float], None] | None = None
+) -> list[R]:
+    """The function of each item, in their order, on `threads()` threads; what is returned does not depend on these.
+
+    `progress(share)` is called on the calling thread as results come in. What it raises, and what the function does,
+    ends the work: items that were not begun are not.
+    """
+    given, results = list(items), []
     count = min(threads(), len(given))
-    if count < 2:
-        return [function(item) for item in given]
-    with ThreadPoolExecutor(count) as pool:
-        return list(pool.map(function, given))
+    with ThreadPoolExecutor(count) if count > 1 else nullcontext() as pool:
+        try:
+            for result in map(function, given) if pool is None else pool.map(function, given):
+                results.append(result)
+                if progress is not None:
+                    progress(len(results) / len(given))
+        except BaseException:
+            if pool is not None:
+                pool.shutdown(wait=False, cancel_futures=True)
+            raise
+    return results
 
 
 class cached_property(Generic[T]):

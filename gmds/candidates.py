@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -77,7 +77,7 @@ def embed(
     return Embedded(pair, points, views, solution, deformation, weighed)
 
 
-def finished(best: Embedded) -> Embedded:
+def finished(best: Embedded, progress: Callable[[float], None] | None = None) -> Embedded:
     """The map refined further, for as long as the elastic energy of the deformation gets less.
 
     It goes through spectral upsampling in the metric of space, or in the one in which it keeps area, and is registered
@@ -90,6 +90,7 @@ def finished(best: Embedded) -> Embedded:
         return best
     regular = pair.source.regular, pair.target.regular
     detail = pair.source.detail, pair.target.detail
+    tell = progress or (lambda share: None)
 
     def in_space(points: SurfacePoints) -> Registered:
         images = upsampled(*regular, points.nearest_vertices(), FINE_LADDER)
@@ -107,10 +108,12 @@ def finished(best: Embedded) -> Embedded:
         if trial.residuals.energy >= now.residuals.energy:
             break
         now = trial
+    tell(0.3)
     trial = settled(*pair.geometries, now.y, SETTLE, growing=True, partial=True, views=detail)
     isometric = trial.residuals.energy < (1 - SPECTRAL_GAIN) * now.residuals.energy
     now, views = (trial, detail) if isometric else (now, None)
-    for _ in range(RETURNS):
+    for number in range(RETURNS):
+        tell(0.4 + 0.6 * number / RETURNS)
         trial = both_ways(*pair.geometries, now, views)
         if not isometric and trial.residuals.energy >= (1 - GAIN) * now.residuals.energy:
             break

@@ -83,7 +83,7 @@ def match(  # noqa: PLR0913 - the signature is a promise
     placed.sort(key=lambda e: e.evidence.loss)
     report("refining", 0.7)
     if distance is None:
-        placed[0] = finished(placed[0])
+        placed[0] = finished(placed[0], lambda share: report("refining", 0.7 + 0.3 * share))
     other = mirrored(placed[0])
     placed += [] if other is None else [other]
 
@@ -119,7 +119,9 @@ def _embedded(
     if pair.known is not None:
         starts = [from_landmarks(*pair.known), *(starts if len(pair.known[0]) < ENOUGH else ())]
     report("proposing", 0.2)
-    chosen = distinct(proposals(pair, views, starts), pair.outlines[0], REFINED, UNLIKELY)
+    found = proposals(pair, views, starts, lambda share: report("proposing", 0.2 + 0.3 * share))
+    chosen = distinct(found, pair.outlines[0], REFINED, UNLIKELY)
     report("embedding", 0.5)
     count = min(count, len(pair.source.regular.usable))
-    return side_by_side(functools.partial(embed, pair, loss=loss, count=count, given=given), chosen)
+    place = functools.partial(embed, pair, loss=loss, count=count, given=given)
+    return side_by_side(place, chosen, lambda share: report("embedding", 0.5 + 0.2 * share))

@@ -62,7 +62,12 @@ class Proposal:
         return sum(residuals.loss for residuals in self.residuals)
 
 
-def proposals(pair: SurfacePair, views: Sequence[tuple[View, View]], starts: Sequence[Start]) -> list[Proposal]:
+def proposals(
+    pair: SurfacePair,
+    views: Sequence[tuple[View, View]],
+    starts: Sequence[Start],
+    progress: Callable[[float], None] | None = None,
+) -> list[Proposal]:
     """Maps from starts in each pair of views, and composed with a reflection, each registered on the outlines.
 
     A reflection of either surface makes of a mirrored map the right one, and of a right one the mirrored. Which is
@@ -71,10 +76,16 @@ def proposals(pair: SurfacePair, views: Sequence[tuple[View, View]], starts: Seq
     """
     source, target = pair.outlines
     places = [target.mesh.vertices[images] for images in rough_maps(pair, views, starts)]
-    begun = side_by_side(lambda place: register(source, target, place, BEGIN, growing=False), places)
+    first, second, third = (_part(progress, *shares) for shares in ((0.6, 0.75), (0.75, 0.9), (0.9, 1.0)))
+    begun = side_by_side(lambda place: register(source, target, place, BEGIN, growing=False), places, first)
     likely = _cheapest(begun)[: max(LEAST_KEPT, len(places) // 3)]
-    there = side_by_side(lambda found: settled(source, target, found.y, COARSE, growing=False), likely)
-    return side_by_side(functools.partial(Proposal.completed, pair), _cheapest(there)[:RETURNED])
+    there = side_by_side(lambda found: settled(source, target, found.y, COARSE, growing=False), likely, second)
+    return side_by_side(functools.partial(Proposal.completed, pair), _cheapest(there)[:RETURNED], third)
+
+
+def _part(progress: Callable[[float], None] | None, start: float, end: float) -> Callable[[float], None]:
+    """Tells `progress` of a part of the work that begins and ends at these shares of the whole."""
+    return lambda share: None if progress is None else progress(start + (end - start) * share)
 
 
 def _cheapest(found: Sequence[Registered]) -> list[Registered]:

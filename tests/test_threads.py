@@ -7,6 +7,7 @@ import os
 import subprocess
 import sys
 import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -76,6 +77,9 @@ def test_side_by_side_keeps_the_order_and_the_errors(monkeypatch: pytest.MonkeyP
     assert allowed() == int(count)
     assert side_by_side(lambda x: x * x, range(20)) == [x * x for x in range(20)]
     assert side_by_side(str, []) == []
+    told: list[float] = []
+    side_by_side(str, range(4), told.append)
+    assert told == [0.25, 0.5, 0.75, 1.0]
     with pytest.raises(ZeroDivisionError):
         side_by_side(lambda x: 1 // x, [1, 0, 2])
 
@@ -110,3 +114,20 @@ def test_cached_properties_of_two_objects_are_computed_side_by_side(monkeypatch:
     assert [one.met for one in both] == [vars(one)["met"] for one in both]
     assert [one.times for one in both] == [1, 1]
     assert Both.met.__doc__ == "Computed once."
+
+
+@pytest.mark.parametrize("count", ["1", "2"])
+def test_what_progress_raises_ends_the_work(monkeypatch: pytest.MonkeyPatch, count: str) -> None:
+    monkeypatch.setenv("GMDS_THREADS", count)
+    done: list[int] = []
+
+    def work(number: int) -> None:
+        time.sleep(0.02)
+        done.append(number)
+
+    def stop(share: float) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        side_by_side(work, range(100), stop)
+    assert len(done) < 20
