@@ -1,6 +1,6 @@
 """Many pairs of a collection of shapes, matched side by side; resumed where it stopped, whatever fails."""
 
-from gmds.batch.engine import local_client, remote_client
+from gmds.batch.engine import local_client, quiet, remote_client
 from gmds.batch.pairs import all_pairs, both_ways, consecutive, with_template
 from gmds.batch.records import PairRecord, ShapeRecord
 from gmds.batch.run import Batch, match_collection
@@ -14,6 +14,7 @@ __all__ = [
     "consecutive",
     "local_client",
     "match_collection",
+    "quiet",
     "remote_client",
     "with_template",
 ]

@@ -65,6 +65,12 @@ def remote_client(address: str) -> Iterator[Any]:
         yield client
 
 
+def quiet() -> None:
+    """Keeps the log of dask to itself, in a process that tells what failed and that is interrupted without a word."""
+    _distributed()  # its import sets levels
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+
+
 def outcomes(
     client: Any, function: Callable[[Job], Result], jobs: Iterable[Job]
 ) -> Iterator[tuple[Job, Result | Failure]]:

@@ -57,7 +57,7 @@ def command(list_or_dir: Path, output: Path, as_json: bool, **options: Any) -> N
     3. Only one run at a time works in a folder; to have more machines work on it, start a dask scheduler and workers
     that see the same folders, and give its address.
     """
-    from gmds.batch import local_client, match_collection, remote_client
+    from gmds.batch import local_client, match_collection, quiet, remote_client
 
     address = options["scheduler"]
     if address is not None and options["workers"] is not None:
@@ -70,6 +70,7 @@ def command(list_or_dir: Path, output: Path, as_json: bool, **options: Any) -> N
         "rng": options["seed"],
     }
     choice = _choice(options["pairs"], options["both_ways"])
+    quiet()
     client = remote_client(address) if address else local_client(options["workers"])
     limits = {"timeout": options["timeout"], "client": client}
     with progress_bar("batch", remaining=True) as progress:
