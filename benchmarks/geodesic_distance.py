@@ -21,6 +21,7 @@ import potpourri3d
 import pygeodesic.geodesic
 import pymeshlab
 from numpy.typing import NDArray
+from scale_meshes import remeshed
 
 from geodesics import GeodesicDistance, Mesh, Metric, SurfacePoints, embedded, farthest_point_sampling, read_mesh
 from geodesics.delaunay import glued_delaunay
@@ -45,18 +46,8 @@ class Row(NamedTuple):
 
 
 def fine_mesh(target: int = 44_000) -> Mesh:
-    """A well-shaped mesh of about `target` vertices: a TOSCA horse, subdivided once and remeshed isotropically."""
-    original = read_mesh(DATA / "tosca_hires" / "horse0.off")
-    meshes = pymeshlab.MeshSet()
-    meshes.add_mesh(pymeshlab.Mesh(original.vertices, original.faces))
-    meshes.meshing_surface_subdivision_midpoint(iterations=1, threshold=pymeshlab.PercentageValue(0))
-    area = meshes.get_geometric_measures()["surface_area"]
-    length = np.sqrt(area / target * 2 / np.sqrt(3))  # the edge of that many equilateral triangle pairs
-    meshes.meshing_isotropic_explicit_remeshing(iterations=8, targetlen=pymeshlab.PureValue(float(length)))
-    meshes.meshing_remove_connected_component_by_face_number(mincomponentsize=1000)
-    meshes.meshing_remove_unreferenced_vertices()
-    result = meshes.current_mesh()
-    return Mesh(result.vertex_matrix(), result.face_matrix())
+    """A well-shaped mesh of about `target` vertices: a TOSCA horse, subdivided and remeshed isotropically."""
+    return Mesh(*remeshed(target))
 
 
 def exact(mesh: Mesh) -> Field:

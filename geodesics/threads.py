@@ -1,6 +1,7 @@
-"""Linear algebra on one thread: threads make small products slower, and the last digits depend on their number.
+"""Linear algebra on one thread, and independent work on several.
 
-On two shared cores the threads of OpenBLAS took three to five times the CPU time of one to match two meshes.
+Threads of BLAS make small products slower, and the last digits depend on their number. On two shared cores those of
+OpenBLAS took three to five times the CPU time of one to match two meshes.
 """
 
 from __future__ import annotations

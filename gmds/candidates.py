@@ -16,7 +16,7 @@ from gmds.pair import SurfacePair
 from gmds.problem import Problem
 from gmds.proposals import Proposal
 from gmds.refinement import ROUNDS, upsampled
-from gmds.registration import COARSE, FINE, SETTLE, Registered, both_ways, register, settled
+from gmds.registration import COARSE, FINE, REFINE, SETTLE, Registered, both_ways, register, settled
 from gmds.registration import registered as as_it_is
 from gmds.solver import Solution, solve
 from gmds.surface import View
@@ -34,7 +34,6 @@ REPEATS = 2  # more refinements, if each pays
 RETURNS = 3  # registrations there and back
 GAIN = 0.005  # share of the energy by which each must lower it, where parts grew
 SPECTRAL_GAIN = 0.08  # and by which eigenfunctions must: more where nothing grew, less across species
-AGAIN = ((3e-3, 4), (1e-3, 4), (5e-4, 4))  # registration of a map that is good already
 CONGRUENT = 1e-9  # elastic energy below which a map is a congruence up to rounding
 
 
@@ -94,11 +93,11 @@ def finished(best: Embedded, progress: Callable[[float], None] | None = None) ->
 
     def in_space(points: SurfacePoints) -> Registered:
         images = upsampled(*regular, points.nearest_vertices(), FINE_LADDER)
-        return registered(pair, SurfacePoints.at_vertices(pair.target.mesh, images), AGAIN)
+        return registered(pair, SurfacePoints.at_vertices(pair.target.mesh, images), REFINE)
 
     def keeping_area(points: SurfacePoints) -> Registered:
         images, _ = pair.refiner.aligned(points.nearest_vertices(), REST)
-        return registered(pair, SurfacePoints.at_vertices(pair.target.mesh, images), AGAIN)
+        return registered(pair, SurfacePoints.at_vertices(pair.target.mesh, images), REFINE)
 
     way, trial = keeping_area, in_space(now.points)
     if trial.residuals.energy < now.residuals.energy:

@@ -30,6 +30,7 @@ class Evidence:
     `outline`: what is left when the outline of the source is deformed as the map says, its parts keeping their sizes;
     `outline_back`: when that of the target is, the other way; `whole`: when all of the source is, and parts may grow;
     `stress`: mean |d_S - d_Q| between samples over mean d_S; `orientation`: signed share of the area that keeps it;
+    `folded`: share of the area whose orientation the map does not treat as the rest is meant to be;
     `closed`: whether neither surface has a boundary; `landmark_error`: mean distance of the landmarks, if any, from
     where they belong, in root areas.
     """
@@ -39,6 +40,7 @@ class Evidence:
     whole: Residuals
     stress: float
     orientation: float
+    folded: float
     closed: bool = True
     landmark_error: float = 0.0
 
@@ -57,7 +59,12 @@ class Evidence:
         loss = sum(residuals.loss for residuals in self.outlines) + float(np.log(1 + self.landmark_error / HIT))
         if not self.closed:
             return loss
-        return loss + self.whole.loss + float(np.log(max(1 - self.orientation, LEAST_FOLDED)))
+        return loss + self.whole.loss + self.fold_loss
+
+    @property
+    def fold_loss(self) -> float:
+        """The part of it that is for what is folded over."""
+        return float(np.log(max(2 * self.folded, LEAST_FOLDED)))
 
 
 def evidence(
@@ -83,6 +90,7 @@ def evidence(
         whole=whole,
         stress=float(np.abs(here - there).mean() / here.mean()),
         orientation=-score if pair.reflected else score,
+        folded=(1 - score) / 2,
         closed=not any(geometry.boundary.any() for geometry in pair.geometries),
         landmark_error=miss,
     )

@@ -25,41 +25,41 @@ WORKING = 5000  # vertices of the copy
 LARGE = 8000  # vertices up to which a surface is matched as it is
 
 
-@derived_once
-def coarse(surface: Surface) -> Surface:
-    """A copy with some `WORKING` vertices of a surface with more than `LARGE`; itself where that can not be made.
+def copied(surface: Surface, n_vertices: int) -> Surface:
+    """A copy of a surface with about so many vertices; itself where that can not be made.
 
     The mesh it was measured from, its `original`, lies where that of the surface does.
     """
-    if len(np.unique(surface.mesh.faces)) <= LARGE:
-        return surface
-    mesh = decimated(surface.mesh, 2 * WORKING)
+    mesh = decimated(surface.mesh, 2 * n_vertices)
     return surface if mesh is None else measure(mesh)
+
+
+@derived_once
+def coarse(surface: Surface) -> Surface:
+    """What is matched of a surface: a copy with some `WORKING` vertices where it has more than `LARGE`, or itself."""
+    large = len(np.unique(surface.mesh.faces)) > LARGE
+    return copied(surface, WORKING) if large else surface
 
 
 @dataclass(frozen=True, eq=False)
 class Carrier:
-    """Carries maps of the copies of two surfaces to the surfaces themselves."""
+    """Carries maps of the `copies` of two surfaces, each a copy or the surface itself, to the surfaces."""
 
     source: Surface
     target: Surface
+    copies: tuple[Surface, Surface]
 
     @classmethod
     def of(cls, source: Surface, target: Surface) -> Carrier | None:
-        """The carrier of two surfaces; None where there are no copies."""
-        carrier = cls(source, target)
-        return None if carrier.copies == (source, target) else carrier
-
-    @property
-    def copies(self) -> tuple[Surface, Surface]:
-        """What is matched instead of the surfaces."""
-        return coarse(self.source), coarse(self.target)
+        """The carrier of two surfaces that are matched; None where there are no copies."""
+        copies = coarse(source), coarse(target)
+        return None if copies == (source, target) else cls(source, target, copies)
 
     def landmarks(self, known: tuple[Index, Index]) -> tuple[Index, Index]:
         """Corresponding vertices (l,) of the surfaces as those of their copies that are nearest, none of them twice."""
         ours, theirs = (
-            cKDTree(_places(surface)).query(surface.mesh.vertices[vertices])[1]
-            for surface, vertices in zip((self.source, self.target), known, strict=True)
+            cKDTree(places).query(surface.mesh.vertices[vertices])[1]
+            for surface, places, vertices in zip((self.source, self.target), self._places, known, strict=True)
         )
         rows = np.stack([ours, theirs], axis=1)
         for column in range(2):
@@ -72,7 +72,7 @@ class Carrier:
         A vertex goes with the point of the copy that it is closest to, and from there to the closest point, in position
         and normal, of the whole target. Candidates go the same way.
         """
-        face, weights, _ = closest_on_triangles(self.source.mesh.vertices, _places(self.source), found.source.faces)
+        face, weights, _ = closest_on_triangles(self.source.mesh.vertices, self._places[0], found.source.faces)
         corners = found.source.faces[face]
         share = np.einsum("pk,pk->p", weights, found.valid[corners].astype(np.float64))
         used = np.zeros(self.source.mesh.n_vertices, dtype=bool)
@@ -88,25 +88,28 @@ class Carrier:
             meta={**found.meta, "solved_vertices": [copy.mesh.n_vertices for copy in self.copies]},
         )
 
+    @property
+    def _places(self) -> tuple[Array, Array]:
+        """The vertices of the meshes that the copies were measured from, where the surfaces are."""
+        ours, theirs = (
+            surface.mesh.vertices if copy is surface else copy.original.vertices
+            for surface, copy in zip((self.source, self.target), self.copies, strict=True)
+        )
+        return ours, theirs
+
     def _candidate(self, one: Candidate, corners: Index, weights: Array) -> Candidate:
         return replace(one, points=self._sent(one.points, corners, weights))
 
     def _sent(self, points: SurfacePoints, corners: Index, weights: Array) -> SurfacePoints:
         """Where weighted corners (n, 3) of the copy of the source go on the whole target, if `points` is the map."""
         here, there = _whole(self.source), _whole(self.target)
-        ends = np.einsum("pk,pkj->pj", points.barycentric, _places(self.target)[points.mesh.faces[points.face]])
+        ends = np.einsum("pk,pkj->pj", points.barycentric, self._places[1][points.mesh.faces[points.face]])
         y = np.einsum("pk,pkj->pj", weights, ends[corners])
         features = here.moved_features(y)
         turned = orientation_score(here.mesh, there.mesh, y, there.normals[there.places.query(y, workers=threads())[1]])
         features[:, 3:] *= np.sign(turned) or 1.0
         near = there.usable[there.tree.query(features, workers=threads())[1]]
         return on_original(self.target, there.closest(features, there.features, near))
-
-
-def _places(surface: Surface) -> Array:
-    """The vertices of the mesh its copy was measured from, where the surface is."""
-    copy = coarse(surface)
-    return surface.mesh.vertices if copy is surface else copy.original.vertices
 
 
 @derived_once

@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geodesics import scale_invariant
+from geodesics.threads import side_by_side
 from gmds import initialization
 from gmds.candidates import Embedded, embed, finished
 from gmds.losses import Loss
 from gmds.pair import SurfacePair
 from gmds.proposals import Proposal, distinct, rough_maps
-from gmds.registration import BEGIN, Registered, Residuals, register
+from gmds.registration import BEGIN, COARSE, Registered, Residuals, register, settled
 from gmds.surface import Surface
 
 Array = NDArray[np.float64]
@@ -35,7 +36,6 @@ ENERGY = 0.5  # elastic energy above which a self-map is no symmetry
 CURVATURE = 0.77  # correlation of mean curvature below which it is none
 STRESS = 0.2  # relative change of distances above which it is none
 SENSE = 0.5  # share of the area whose orientation a map must treat alike
-LEAST_FOLDED = 1e-3  # share of the area that is folded over at a vertex of any triangulation
 SAMPLES = 300
 SMOOTHING = 2e-3  # of the curvature, in the metric that only self-maps are proposed in
 
@@ -60,7 +60,7 @@ class SelfMap:
         folds the surface in between.
         """
         evidence = self.embedded.evidence
-        return evidence.whole.loss + float(np.log(max(1 - abs(evidence.orientation), LEAST_FOLDED)))
+        return evidence.whole.loss + evidence.fold_loss
 
     @property
     def energy(self) -> float:
@@ -135,14 +135,19 @@ def proposed(pair: SurfacePair) -> list[Proposal]:
         (pair.source.view(sharp), pair.target.view(sharp)),
     ]
     places = [target.mesh.vertices[images] for images in rough_maps(pair, views, initialization.ALL)]
-    begun = [register(source, target, place, BEGIN, growing=True) for place in places]
+    begun = side_by_side(lambda place: register(source, target, place, BEGIN, growing=True), places)
     kept: list[int] = []
     for i in np.argsort([found.residuals.loss for found in begun], kind="stable"):
         new = all(source.areas @ np.linalg.norm(begun[i].y - begun[j].y, axis=1) > DISTINCT for j in kept)
         wanted = len(kept) < TRIED or begun[i].residuals.loss < CONVINCING / 2
         if new and wanted and _moves(begun[i], pair) > _still(pair):
             kept.append(int(i))
-    return [Proposal.of(pair, places[i], growing=True) for i in kept]
+
+    def completed(number: int) -> Proposal:
+        there = settled(source, target, begun[number].y, COARSE, growing=True)
+        return Proposal.completed(pair, there, growing=True)
+
+    return side_by_side(completed, kept)
 
 
 def likely(maps: list[SelfMap], apart: float = APART) -> list[SelfMap]:

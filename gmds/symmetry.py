@@ -6,20 +6,15 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 
-import numpy as np
-
 from geodesics import Mesh
-from geodesics.closest import closest_on_triangles
 from geodesics.threads import on_one_blas_thread
 from gmds._validation import suggest_keywords
-from gmds.answer import answer, on_original
+from gmds.answer import answer
+from gmds.coarsening import WORKING, Carrier, copied
 from gmds.correspondence import Correspondence, MatchStatus
-from gmds.geometry import Geometry
 from gmds.losses import LeastSquares
 from gmds.self_maps import SelfMap, likely, self_maps
-from gmds.surface import Surface, measure
-
-WORKING = 5000  # vertices beyond which the work is done on a copy with so many
+from gmds.surface import measure
 
 
 @suggest_keywords
@@ -51,18 +46,15 @@ def self_symmetry(
     mesh = Mesh.from_object(mesh)
     report("measuring", 0.0)
     surface = measure(mesh)
-    outline = None if mesh.n_vertices <= n_vertices else Geometry.outline(surface, 2 * n_vertices)
-    if outline is not None and outline.mesh is surface.mesh:
-        outline = None
-    solved = mesh if outline is None else outline.mesh
-    here = surface if outline is None else measure(solved)
-    found = likely(list(self_maps(here, measure(solved, reflected=True), LeastSquares(), report)))
+    copy = surface if mesh.n_vertices <= n_vertices else copied(surface, n_vertices)
+    found = likely(list(self_maps(copy, copy.reflection, LeastSquares(), report)))
     good = [m for m in found if m.plausible]
     seconds = round(time.perf_counter() - started, 3)
     report("done", 1.0)
     settings = {"parameters": {"n_vertices": n_vertices}, "seconds": seconds}
     told = [_told(m, settings, MatchStatus.GOOD if good else MatchStatus.POOR) for m in good or found[:1]]
-    return told if outline is None else [carried(one, outline, surface) for one in told]
+    carrier = Carrier(surface, surface, (copy, copy))
+    return told if copy is surface else [carrier.carried(one) for one in told]
 
 
 def _told(found: SelfMap, settings: dict[str, object], status: MatchStatus) -> Correspondence:
@@ -76,23 +68,3 @@ def _told(found: SelfMap, settings: dict[str, object], status: MatchStatus) -> C
         "twice": found.twice,
     }
     return replace(answer([found.embedded], {**settings, "symmetry": figures}), status=status)
-
-
-def carried(found: Correspondence, outline: Geometry, surface: Surface) -> Correspondence:
-    """A self-map of the outline of a surface as one of its original mesh.
-
-    A vertex goes, with the point of the outline closest to it, to the closest point in position and normal.
-    """
-    whole = Geometry.of(surface)
-    face, weights, _ = closest_on_triangles(surface.mesh.vertices, outline.mesh.vertices, outline.mesh.faces)
-    corners = outline.mesh.faces[face]
-    y = np.einsum("pk,pkj->pj", weights, found.points.positions[corners])
-    features = whole.moved_features(y)
-    if found.meta["symmetry"]["reversing"]:
-        features[:, 3:] *= -1
-    near = whole.usable[whole.tree.query(features)[1]]
-    points = on_original(surface, whole.closest(features, whole.features, near))
-    valid = (np.einsum("pk,pk->p", weights, found.valid[corners]) > 0.5) & (whole.areas > 0)
-    distortion = np.einsum("pk,pk->p", weights, found.distortion[corners])
-    mesh = surface.original
-    return Correspondence(mesh, mesh, points, valid, distortion, found.status, (), found.meta)

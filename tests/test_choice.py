@@ -20,7 +20,7 @@ from gmds.surface import Surface, measure
 Index = NDArray[np.int64]
 LEFT = Residuals(energy=0.3, misfit=0.01, misfit_back=0.02, curvature=0.8, curvature_back=0.7)
 WORSE = {"energy": 0.6, "misfit_back": 0.05, "curvature": 0.5, "curvature_back": 0.2}
-FAIR = Evidence(outline=LEFT, outline_back=LEFT, whole=LEFT, stress=0.05, orientation=0.4)
+FAIR = Evidence(outline=LEFT, outline_back=LEFT, whole=LEFT, stress=0.05, orientation=0.4, folded=0.3)
 LOBED = shapes.ellipsoid(2, (1.0, 1.4, 2.0))
 
 
@@ -112,6 +112,15 @@ def test_where_orientation_is_to_be_reversed_the_mirrored_map_wins() -> None:
     assert kept.loss < turned.loss - 3 or turned.loss < kept.loss - 3
     best = min(kept, turned, key=lambda found: found.loss)
     assert best.orientation < -0.9 and best.whole.energy < 1e-9
+    worst = max(kept, turned, key=lambda found: found.loss)
+    assert best.folded < 0.05 and worst.folded > 0.95
+
+
+def test_what_is_folded_over_speaks_against_a_map_where_nothing_can_be_missing() -> None:
+    losses = [replace(FAIR, folded=share).loss for share in (0.0, 0.01, 0.1, 0.5)]
+    assert losses == sorted(losses) and losses[3] - losses[1] == pytest.approx(np.log(50))
+    opened = [replace(FAIR, folded=share, closed=False).loss for share in (0.0, 0.5)]
+    assert opened[0] == opened[1]
 
 
 def test_landmarks_are_measured_from_where_they_belong() -> None:
