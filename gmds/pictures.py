@@ -27,6 +27,7 @@ def write_picture(
     errors: ArrayLike | None = None,
     *,
     title: str = "",
+    names: tuple[str, str] = ("source", "target"),
     up: Direction = (0, 0, 1),
     pixels: int = 520,
 ) -> None:
@@ -41,8 +42,8 @@ def write_picture(
     pulled = answer.points.interpolate(colours)
     pulled[~answer.valid] = MISSING
     panels: list[Panel] = [
-        ("source", render(answer.source, pulled, rotation=view, pixels=pixels), None),
-        ("target", render(answer.target, colours, rotation=view @ alignment(answer), pixels=pixels), None),
+        (names[0], render(answer.source, pulled, rotation=view, pixels=pixels), None),
+        (names[1], render(answer.target, colours, rotation=view @ alignment(answer), pixels=pixels), None),
     ]
     values = answer.distortion if errors is None else per_vertex(errors, answer.source.n_vertices)
     if errors is not None or values.any():
