@@ -8,11 +8,15 @@ import numpy as np
 import pytest
 from shapes import ellipsoid, icosphere, moved, rectangle, tetrahedron
 
+import gmds.offscreen
 from geodesics import Mesh, SurfacePoints
 from gmds import Correspondence
+from gmds.cli.fields import PICTURES
 from gmds.colours import css, label_colours, position_colours, value_colours
-from gmds.pictures import write_picture, write_values
-from gmds.rendering import render, view_rotation
+from gmds.errors import PictureFormat, RenderingError
+from gmds.offscreen import offscreen
+from gmds.pictures import FORMATS, map_panels, write_picture, write_values
+from gmds.rendering import Shot, render, software, view_rotation
 from gmds.shapes import quadruped, truth
 from gmds.views import alignment, broadside
 
@@ -26,7 +30,7 @@ def answer() -> Correspondence:
 
 def test_writing_into_a_missing_folder_raises(answer: Correspondence, tmp_path: Path) -> None:
     with pytest.raises(OSError, match="nowhere"):
-        write_picture(tmp_path / "nowhere" / "x.png", answer)
+        write_picture(tmp_path / "nowhere" / "x.png", answer, pixels=60, renderer=software)
 
 
 def test_maps_without_any_counterpart_and_errors_without_numbers_can_be_shown(tmp_path: Path) -> None:
@@ -34,11 +38,83 @@ def test_maps_without_any_counterpart_and_errors_without_numbers_can_be_shown(tm
     answer = Correspondence.from_points(
         shape, SurfacePoints.at_vertices(shape, [0, 1, 2, 3]), valid=np.zeros(4, dtype=bool)
     )
-    write_picture(tmp_path / "out.png", answer, errors=np.full(4, np.nan))
+    write_picture(tmp_path / "out.png", answer, errors=np.full(4, np.nan), renderer=software)
     with pytest.raises(ValueError, match="each of the 4 vertices"):
         write_picture(tmp_path / "out.png", answer, errors=np.zeros(3))
     with pytest.raises(ValueError, match="each of the 4 vertices"):
         write_values(tmp_path / "out.png", [("short", shape, [1.0])])
+
+
+def test_the_ending_names_the_format(answer: Correspondence, tmp_path: Path) -> None:
+    begins = {".png": b"\x89PNG", ".jpg": b"\xff\xd8\xff", ".jpeg": b"\xff\xd8\xff", ".svg": b"<?xml", ".pdf": b"%PDF"}
+    assert set(begins) == set(FORMATS) == set(PICTURES)
+    for ending, first in begins.items():
+        twice = [tmp_path / f"{name}{ending}" for name in "ab"]
+        for path in twice:
+            write_picture(path, answer, pixels=60, renderer=software, names=("<a>", "&b"))
+        assert twice[0].read_bytes() == twice[1].read_bytes() and twice[0].read_bytes().startswith(first)
+    assert "&lt;a&gt;" in (tmp_path / "a.svg").read_text()
+    for name in ("map.tif", "map"):
+        with pytest.raises(PictureFormat, match=r"E216.*map.*\.png, \.jpg"):
+            write_picture(tmp_path / name, answer)
+    assert not list(tmp_path.glob("map*"))
+
+
+def test_both_renderers_draw_the_same(answer: Correspondence) -> None:
+    colours = position_colours(answer.target.vertices)
+    labels = label_colours(np.arange(answer.target.n_vertices) // 50)
+    view = broadside(answer.target)
+    shots = [Shot(answer.target, colours, view, 160), Shot(answer.target, labels, view, 160, sharp=True)]
+    try:
+        theirs = offscreen(shots)
+    except RenderingError as error:
+        pytest.skip(str(error))
+    for own, other in zip(software(shots), theirs, strict=True):
+        assert own.shape == other.shape and other.max() <= 1
+        drawn = [(image.min(axis=2) < 0.99) for image in (own, other)]
+        assert (drawn[0] != drawn[1]).mean() < 0.02, "the same outline"
+        both = drawn[0] & drawn[1]
+        hues = [image[both] / np.linalg.norm(image[both], axis=1, keepdims=True) for image in (own, other)]
+        assert np.quantile((hues[0] * hues[1]).sum(axis=1), 0.1) > 0.98, "the same colours, but for the light"
+
+
+WORKERS = {
+    "import os; os.abort()": "signal 6",
+    "import sys; sys.stderr.write('bad X server connection'); sys.exit(3)": "exit code 3: bad X server connection",
+    "import time; time.sleep(60)": "did not draw within 1 s",
+    "pass": "drew nothing",
+}
+
+
+@pytest.mark.parametrize("code", WORKERS)
+def test_a_driver_that_fails_is_told_and_the_picture_drawn_all_the_same(
+    answer: Correspondence, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, code: str
+) -> None:
+    (tmp_path / "worker.py").write_text(code)
+    monkeypatch.setattr(gmds.offscreen, "WORKER", tmp_path / "worker.py")
+    monkeypatch.setattr(gmds.offscreen, "PATIENCE", 1 if "sleep" in code else 60)
+    monkeypatch.setattr(gmds.offscreen, "_installed", lambda: True)
+    why = answer.picture(tmp_path / "map.png", pixels=60)
+    assert WORKERS[code] in why and "E505" in why and (tmp_path / "map.png").exists()
+    with pytest.raises(RenderingError, match=WORKERS[code]):
+        answer.picture(tmp_path / "other.png", pixels=60, renderer=offscreen)
+    assert not (tmp_path / "other.png").exists()
+
+
+def test_without_pyvista_the_picture_is_drawn_and_the_extra_named(
+    answer: Correspondence, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(gmds.offscreen, "_installed", lambda: False)
+    assert "pip install 'gmds[viz]'" in answer.picture(tmp_path / "map.png", pixels=60)
+    assert (tmp_path / "map.png").exists()
+
+
+def test_a_truth_that_is_known_at_few_points_colours_what_is_nearest(answer: Correspondence, tmp_path: Path) -> None:
+    errors = np.full(500, np.nan)
+    errors[[3, 400]] = 0.1, 0.2
+    panel = map_panels(answer, errors)[2]
+    assert panel.caption == "error"
+    assert len(np.unique(panel.shot.colours[answer.valid], axis=0)) == 2
 
 
 def pixels_of(path: Path) -> np.ndarray:
@@ -50,8 +126,10 @@ def pixels_of(path: Path) -> np.ndarray:
 
 def test_the_picture_shows_source_target_and_errors(answer: Correspondence, tmp_path: Path) -> None:
     plain = Correspondence.from_points(answer.source, answer.points)
-    write_picture(tmp_path / "two.png", plain, pixels=150)
-    write_picture(tmp_path / "three.png", answer, errors=np.linspace(0, 1, 500), title="$x <b>", pixels=150)
+    write_picture(tmp_path / "two.png", plain, pixels=150, renderer=software)
+    write_picture(
+        tmp_path / "three.png", answer, errors=np.linspace(0, 1, 500), title="$x <b>", pixels=150, renderer=software
+    )
     two, three = pixels_of(tmp_path / "two.png"), pixels_of(tmp_path / "three.png")
     assert three.shape[1] > 1.3 * two.shape[1]
     assert 0.1 < (two.min(axis=2) < 0.98).mean() < 0.9
@@ -60,8 +138,15 @@ def test_the_picture_shows_source_target_and_errors(answer: Correspondence, tmp_
 def test_values_and_labels_make_pictures(tmp_path: Path) -> None:
     sphere = icosphere(2)
     z = np.where(np.arange(sphere.n_vertices) == 0, np.inf, sphere.vertices[:, 2])
-    write_values(tmp_path / "values.png", [("height", sphere, z), ("flat", rectangle(3, 3), np.zeros(16))], pixels=120)
-    write_values(tmp_path / "labels.png", [("sign", sphere, np.sign(z).astype(int))], labels=True, pixels=120)
+    write_values(
+        tmp_path / "values.png",
+        [("height", sphere, z), ("flat", rectangle(3, 3), np.zeros(16))],
+        pixels=120,
+        renderer=software,
+    )
+    write_values(
+        tmp_path / "labels.png", [("sign", sphere, np.sign(z).astype(int))], labels=True, pixels=120, renderer=software
+    )
     assert pixels_of(tmp_path / "values.png").size and pixels_of(tmp_path / "labels.png").size
 
 

@@ -8,13 +8,16 @@ from typing import Any
 
 import click
 
-from gmds.cli.output import note
+from gmds.cli.fields import PICTURES, EndingIn
+from gmds.cli.output import note, tell_written
 
 FILE = click.Path(path_type=Path)
 UP = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 
 report_option = click.option("--report", type=FILE, help="Write a page to turn both surfaces in a browser.")
-picture_option = click.option("--picture", type=FILE, help="Draw both surfaces: .png, .jpg, .svg or .pdf.")
+picture_option = click.option(
+    "--picture", type=EndingIn(*PICTURES), help="Draw both surfaces: .png, .jpg, .svg or .pdf."
+)
 up_option = click.option(
     "--up", type=click.Choice(list(UP)), default="z", show_default=True, help="Axis of the meshes that is shown as up."
 )
@@ -40,5 +43,5 @@ def write_views(
     if picture is not None:
         from gmds.pictures import write_picture
 
-        write_picture(picture, answer, None if errors is None else errors[0], up=UP[up], **details)
-        note(f"wrote {picture}")
+        first = None if errors is None else errors[0]
+        tell_written(picture, write_picture(picture, answer, first, up=UP[up], **details))
