@@ -8,6 +8,7 @@ import importlib.util
 import os
 import platform
 import re
+import stat
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -100,6 +101,9 @@ def _kernels() -> Finding:
     if folder is None or not os.access(folder, os.W_OK):
         advice = "set NUMBA_CACHE_DIR to a folder that can be written, else every process compiles for itself"
         return Finding("compiled kernels", "problem", f"can not be kept in {folder or 'any folder'}", advice)
+    if os.stat(folder).st_mode & stat.S_IWOTH:
+        advice = f"they are code: chmod o-w '{folder}', or set NUMBA_CACHE_DIR to a folder of your own"
+        return Finding("compiled kernels", "problem", f"anyone may write in {folder}", advice)
     kept = sum(name.endswith(".nbi") for name in os.listdir(folder))
     advice = "" if kept else "the first match will compile them; `gmds warmup` does it now"
     return Finding("compiled kernels", "ok", f"{kept} in {folder}", advice)

@@ -16,6 +16,9 @@ from gmds.cli.output import emit, json_option
 def command(mesh: Path, as_json: bool) -> None:
     """Say what is unusual or wrong with the mesh in a file, without changing it.
 
+    \b
+      gmds check dog.ply
+
     Warnings come first, each with a code that does not change between versions and the first faces or vertices meant.
     A mesh that can not be used at all ends with exit code 1.
     """

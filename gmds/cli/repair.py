@@ -27,6 +27,10 @@ FILE = click.Path(path_type=Path)
 def command(mesh: Path, output: Path, maps: Path | None, as_json: bool, **steps: Any) -> None:
     """Write a better version of MESH: no repeated or degenerate faces, none turned against its neighbours.
 
+    \b
+      gmds repair dog.ply -o better.ply --maps maps.npz
+      gmds repair dog.ply -o small.ply --decimate 5000
+
     Positions do not change and what stays keeps its order, unless one of the other steps is asked for; these follow
     in the order in which they are listed here. New faces and vertices have the old index -1; a remeshed surface has
     nothing but new ones, so it goes without --maps.
