@@ -29,7 +29,7 @@ def command(mesh: Path, output: Path, maps: Path | None, as_json: bool, **steps:
 
     \b
       gmds repair dog.ply -o better.ply --maps maps.npz
-      gmds repair dog.ply -o small.ply --decimate 5000
+      gmds repair scan.ply -o small.ply --decimate 5000
 
     Positions do not change and what stays keeps its order, unless one of the other steps is asked for; these follow
     in the order in which they are listed here. New faces and vertices have the old index -1; a remeshed surface has
