@@ -6,6 +6,7 @@ where the repository is browsed alike. Nothing is downloaded.
 
 from __future__ import annotations
 
+import itertools
 import re
 import sys
 from pathlib import Path
@@ -13,7 +14,8 @@ from typing import Any, Generic, TypeVar
 
 import numpy.typing
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE.parent), str(HERE)]
 
 
 class ArrayLike:
@@ -26,10 +28,14 @@ class NDArray(Generic[TypeVar("T")]):
 
 numpy.typing.ArrayLike, numpy.typing.NDArray = ArrayLike, NDArray  # type: ignore[misc, assignment]
 
-import click  # noqa: E402
+import generated  # noqa: E402
 
 import gmds  # noqa: E402
-from gmds.cli import main  # noqa: E402
+
+GENERATED = {
+    "docs/reference/command-line": generated.every_command,
+    "docs/reference/errors": generated.every_code,
+}
 
 project = "gmds"
 author = copyright = "the gmds developers"
@@ -59,26 +65,30 @@ python_use_unqualified_type_names = True
 
 
 def plain_docstrings(_app: Any, _what: str, _name: str, _thing: Any, _options: Any, lines: list[str]) -> None:
-    """Docstrings are plain text with `names` and formulas; what reStructuredText would take for markup is escaped."""
-    for number, line in enumerate(lines):
-        parts = re.split(r"(`[^`]*`)", line)
-        parts[::2] = [re.sub(r"[*|]|_(?!\w)", r"\\\g<0>", part) for part in parts[::2]]
-        lines[number] = "".join(parts)
+    """Docstrings are plain text with `names`, formulas and tables; other marks of reStructuredText are escaped."""
+    plain: list[str] = []
+    for is_table, group in itertools.groupby(lines, key=lambda line: line.startswith(("| ", "|--"))):
+        plain += (_table if is_table else _escaped)(list(group))
+    lines[:] = plain
 
 
-def every_command(_app: Any, docname: str, source: list[str]) -> None:
-    """The help of every command, word for word, below what docs/reference/command-line.md says."""
-    if docname != "docs/reference/command-line":
-        return
-    top = click.Context(main, info_name="gmds", max_content_width=100, terminal_width=100)
-    for title, names in main.sections.items():
-        source[0] += f"\n## {title}\n"
-        for name in names:
-            command = main.get_command(top, name)
-            context = click.Context(command, info_name=name, parent=top, max_content_width=100, terminal_width=100)
-            source[0] += f"\n### gmds {name}\n\n```text\n{click.unstyle(context.get_help())}\n```\n"
+def _escaped(lines: list[str]) -> list[str]:
+    between = re.compile(r"(`[^`]*`)|([*|]|_(?!\w))")
+    return [between.sub(lambda found: found[1] or "\\" + found[2], line) for line in lines]
+
+
+def _table(lines: list[str]) -> list[str]:
+    rows = [_escaped([cell.strip() for cell in line.strip("| ").split("|")]) for line in lines if "|--" not in line]
+    cells = [f"   {'  -' if column else '* -'} {cell}" for row in rows for column, cell in enumerate(row)]
+    return [".. list-table::", "   :header-rows: 1", "", *cells, ""]
+
+
+def complete(_app: Any, docname: str, source: list[str]) -> None:
+    """What is generated comes below what the page says."""
+    if docname in GENERATED:
+        source[0] += GENERATED[docname]()
 
 
 def setup(app: Any) -> None:
     app.connect("autodoc-process-docstring", plain_docstrings)
-    app.connect("source-read", every_command)
+    app.connect("source-read", complete)

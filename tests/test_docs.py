@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import importlib
 import re
+import runpy
 import shlex
 import shutil
 from collections.abc import Iterator
@@ -106,6 +107,14 @@ def test_every_public_name_is_in_the_reference(package: str) -> None:
     page = (ROOT / "docs" / "reference" / f"{package}.md").read_text(encoding="utf-8")
     listed = re.findall(rf"^\.\. auto(?:function|class):: {package}\.(\w+)$", page, re.MULTILINE)
     assert sorted(listed) == importlib.import_module(package).__all__
+
+
+def test_no_two_errors_have_the_same_code() -> None:
+    codes = runpy.run_path(str(ROOT / "docs" / "generated.py"))["error_codes"]()
+    by_code: dict[str, list[str]] = {}
+    for code, kind in codes:
+        by_code.setdefault(code, []).append(kind.__name__)
+    assert len(by_code) > 35 and not {code: names for code, names in by_code.items() if len(names) > 1}
 
 
 def examples_in_help() -> list[str]:
