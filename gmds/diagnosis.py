@@ -27,7 +27,10 @@ REQUIRED = (
     "rich>=13",
 )
 EXTRAS = {
-    "viz": (("matplotlib>=3.8", "plotly>=6"), "pictures; pages and reports need neither it nor a browser here"),
+    "viz": (
+        ("matplotlib>=3.8", "plotly>=6", "pyvista>=0.44"),
+        "pictures; pages and reports need neither it nor a browser here",
+    ),
     "repair": (("pymeshlab>=2023.12",), "closing holes and remeshing in `gmds repair`"),
     "batch": (("distributed>=2024.1",), "`gmds batch`"),
 }

@@ -10,7 +10,8 @@ import click
 from gmds.cli.choices import chosen_distance, chosen_loss, distance_option, loss_option, metric_option
 from gmds.cli.group import Command
 from gmds.cli.landmark_options import given_landmarks, space_option
-from gmds.cli.output import emit, json_option, note, progress_bar, seed_option
+from gmds.cli.output import emit, json_option, progress_bar, seed_option
+from gmds.cli.views import view_options, write_views
 
 FILE = click.Path(path_type=Path)
 
@@ -19,8 +20,7 @@ FILE = click.Path(path_type=Path)
 @click.argument("source", type=FILE)
 @click.argument("target", type=FILE)
 @click.option("-o", "--output", default="map.npz", show_default=True, type=FILE, help="Where the map goes.")
-@click.option("--report", type=FILE, help="Write a page to turn both surfaces in a browser.")
-@click.option("--picture", type=FILE, help="Write a PNG of both surfaces.")
+@view_options
 @click.option("--landmarks", type=FILE, multiple=True, help="Known points; given once or twice, see above.")
 @space_option
 @click.option("--samples", type=int, help="How many samples the embedding places.")
@@ -62,7 +62,8 @@ def command(source: Path, target: Path, output: Path, as_json: bool, seed: int, 
     seconds = time.process_time() - started
     answer.save(output)
     emit({"map": str(output), "cpu_seconds": seconds, **described(answer)}, as_json)
-    write_views(answer, options["report"], options["picture"])
+    shown = {name: options[name] for name in ("report", "picture", "up")}
+    write_views(answer, **shown, title=f"{source.name} → {target.name}", names=(source.name, target.name))
 
 
 def described(answer: Any) -> dict[str, Any]:
@@ -77,17 +78,3 @@ def described(answer: Any) -> dict[str, Any]:
         "median_distortion": float(np.median(answer.distortion)),
         "candidates": candidates,
     }
-
-
-def write_views(answer: Any, report: Path | None, picture: Path | None, **details: Any) -> None:
-    """The page and the picture that were asked for; each written file is named on stderr."""
-    if report is not None:
-        from gmds.report import write_report
-
-        write_report(report, answer, **details)
-        note(f"wrote {report}")
-    if picture is not None:
-        from gmds.pictures import write_picture
-
-        write_picture(picture, answer, **details)
-        note(f"wrote {picture}")
