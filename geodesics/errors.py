@@ -169,6 +169,15 @@ class ExternalReference(FormatError):
     code = "E222"
 
 
+class WouldExceedMemory(MemoryError):
+    """A table larger than the memory that is free; the message says how large, and what to do instead."""
+
+    code = "E501"
+
+    def __str__(self) -> str:
+        return f"{self.code}: {super().__str__()}"
+
+
 class MissingExtra(ImportError):
     """An optional dependency is not installed; the message names the extra."""
 
