@@ -28,6 +28,10 @@ FILE = click.Path(path_type=Path)
 def command(source: Path, target: Path, output: Path, as_json: bool, **options: Any) -> None:
     """Find for every vertex of SOURCE the point of TARGET that corresponds to it, and write the map.
 
+    \b
+      gmds match dog.ply wolf.off -o map.npz --report map.html --picture map.png
+      gmds match dog.ply wolf.off --landmarks dog.csv --landmarks wolf.csv
+
     Meshes are OFF, OBJ, PLY, STL, GLB or TOSCA .vert/.tri files. The map is a .npz that numpy alone can read.
 
     Landmarks are one file for both surfaces, with two vertex numbers (from 0) or six coordinates a line; or, with the
