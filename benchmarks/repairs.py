@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from fault_tables import table
+from markdown import table
 
 from geodesics import GeodesicDistance, Mesh, SurfacePoints, eigenpairs, read_mesh, scale_invariant
 from geodesics.check import check
