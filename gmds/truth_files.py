@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 import zipfile
 from pathlib import Path
 from typing import Any
@@ -14,6 +13,7 @@ from geodesics.errors import FormatError
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
 from gmds.correspondence import Correspondence
+from gmds.mat_file import read_mat
 from gmds.npz_file import DAMAGED, opened, read_npz
 
 Indices = NDArray[np.int64]
@@ -116,24 +116,22 @@ def read_landmarks_mat(path: Path) -> tuple[Indices, Indices, Indices, NDArray[n
 
     Landmark 12 of camels sits on a hump that other animals lack and is dropped.
     """
-    from scipy.io import loadmat
-
-    if not path.is_file():
-        raise FileNotFoundError(f"{path} does not exist")
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("error")
-            content = loadmat(path)
-        ids, vertices, points = (np.asarray(content[key]) for key in ("points", "verts", "baryc"))
-        ids, vertices, faces = (whole_numbers(column.ravel()) for column in (ids, vertices - 1, points[:, 0] - 1))
+        content = read_mat(path, "points", "verts", "baryc")
+        points = content["baryc"]
+        ids, vertices, faces = (
+            whole_numbers(column.ravel()) for column in (content["points"], content["verts"], points[:, 0])
+        )
         weights = np.maximum(points[:, 1:4].astype(np.float64), 0)
         total = weights.sum(axis=1, keepdims=True)
         if not (len(ids) == len(vertices) == len(faces) and (total > 0).all() and np.isfinite(total).all()):
             raise ValueError("they have other lengths, or weights that do not add up to anything")
-    except Exception as error:  # on damaged bytes scipy raises a dozen different types
+        if not ((vertices > 0).all() and (faces > 0).all()):
+            raise ValueError("vertices and faces are counted from 1")
+    except (ValueError, IndexError) as error:
         raise BadTruth(f"{path} must be a MATLAB file with points, verts and baryc ({error})") from error
     keep = ~((ids == HUMP) & _is_camel(path))
-    return ids[keep], vertices[keep], faces[keep], weights[keep] / total[keep]
+    return ids[keep], vertices[keep] - 1, faces[keep] - 1, weights[keep] / total[keep]
 
 
 def points_at(mesh: Mesh, indices: Indices | None) -> SurfacePoints | None:

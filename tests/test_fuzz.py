@@ -15,7 +15,7 @@ FILES = 150
 READERS = [
     "OFF", "OBJ", "PLY, text", "PLY, binary", "STL, text", "STL, binary", "GLB", "TOSCA", "map", "measured surface",
     "landmarks, .csv", "landmarks, .mrk.json", "landmarks, .fcsv", "landmarks, .tps", "landmarks, .pts",
-    "landmarks, .vts", "landmark pairs", "pair list", "values", "truth, .vts", "truth, .npz", "truth, .mat",
+    "landmarks, .vts", "landmark pairs", "pair list", "values", "truth, .vts", "truth, .npz",
 ]  # fmt: skip
 
 

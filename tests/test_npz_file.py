@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from shapes import icosphere
 
+from gmds import mat_file
 from gmds.cli.values_file import BadValuesFile, read_values
 from gmds.errors import SurfaceFileError
 from gmds.npz_file import PickledArray, read_npy, read_npz
@@ -142,6 +143,20 @@ def test_truth_that_is_no_index_is_refused_not_rounded(tmp_path: Path, bad: list
     assert read_truth_npz(tmp_path / "t.npz")[1].tolist() == [3, 4]
 
 
+def test_a_mat_file_that_kills_its_reader_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "t.mat").write_bytes(b"any bytes")
+    killer = "import os, signal\nos.kill(os.getpid(), signal.SIGSEGV)"
+    for script, says in (
+        (killer, "signal 11"),
+        ("import time\ntime.sleep(60)", "given up"),
+        (mat_file.READ, "ended with"),
+    ):
+        monkeypatch.setattr(mat_file, "READ", script)
+        monkeypatch.setattr(mat_file, "SECONDS", 2 if "sleep" in script else 60)
+        with pytest.raises(BadTruth, match=says):
+            read_landmarks_mat(tmp_path / "t.mat")
+
+
 def test_mat_files_that_do_not_agree_with_themselves(tmp_path: Path) -> None:
     from scipy.io import savemat
 
@@ -151,6 +166,7 @@ def test_mat_files_that_do_not_agree_with_themselves(tmp_path: Path) -> None:
     for key, value in (
         ("verts", [[1]]),
         ("verts", [[0], [1]]),
+        ("verts", np.array([[0], [1]], dtype=np.uint8)),
         ("baryc", np.array([[3, 0, 0, 0], [1, 1, 0, 0]])),
         ("baryc", np.array([[3, np.nan, 0, 0], [1, 1, 0, 0]])),
         ("baryc", np.array([[0, 1, 0, 0], [1, 1, 0, 0]])),
