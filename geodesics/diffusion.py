@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from geodesics._kernels.spreading import closer_rows
 from geodesics.distance import FEWER_POINTS
 from geodesics.euclidean import euclidean_distances
 from geodesics.memory import table
@@ -55,18 +56,10 @@ class _SpectralDistance:
 
     def spreader(self) -> Callable[[int, Array], tuple[NDArray[np.int64], Array]]:
         """A function (vertex, nearest (n,)) -> the vertices closer to this one than `nearest`, and their distances."""
-        e, label = self.embedding, vertex_components(self.mesh)
-        norm = np.einsum("ik,ik->i", e, e)
+        rows, label, linked = self.embedding, vertex_components(self.mesh), self._linked
 
         def closer(vertex: int, nearest: Array) -> tuple[NDArray[np.int64], Array]:
-            squared = norm + norm[vertex] - 2 * (e @ e[vertex])
-            mask = (squared < nearest**2) & (label >= 0)
-            if not self._linked:
-                mask &= label == label[vertex]
-            where = np.flatnonzero(mask)
-            distance = np.linalg.norm(e[where] - e[vertex], axis=1)
-            kept = distance < nearest[where]
-            return where[kept], distance[kept]
+            return closer_rows(rows, label, linked, vertex, nearest)
 
         return closer
 

@@ -104,6 +104,12 @@ class Correspondence:
         counts = f"{self.source.n_vertices} -> {self.target.n_vertices} vertices, {int(self.valid.sum())} valid"
         return f"Correspondence({counts}, {self.status.name})"
 
+    def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
+        """For notebooks: a small picture and a few figures (see `gmds.notebook`)."""
+        from gmds.notebook import mimebundle
+
+        return mimebundle(self)
+
     def vertex_map(self) -> NDArray[np.int64]:
         """The target vertex nearest to each point, among the corners of its face: (n,) int64."""
         return self.points.nearest_vertices()
@@ -138,6 +144,18 @@ class Correspondence:
         from gmds.algebra import compose
 
         return compose(self, other)
+
+    def report(self, path: str | os.PathLike[str], errors: ArrayLike | None = None, **options: Any) -> None:
+        """Write a page to look at this map in a browser; see `gmds.report.write_report`."""
+        from gmds.report import write_report
+
+        write_report(path, self, errors, **options)
+
+    def picture(self, path: str | os.PathLike[str], errors: ArrayLike | None = None, **options: Any) -> str:
+        """Draw both surfaces, corresponding points in the same colour; see `gmds.pictures.write_picture`."""
+        from gmds.pictures import write_picture
+
+        return write_picture(path, self, errors, **options)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write map.npz, version 1 (see `gmds.map_file`), atomically; candidates are not kept."""

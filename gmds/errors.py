@@ -43,6 +43,15 @@ class UnknownKey(ValueError):
         return f"{self.code}: {super().__str__()}"
 
 
+class BadSetting(ValueError):
+    """A setting in a file with a value that it can not have, or a file of settings that can not be read."""
+
+    code = "E603"
+
+    def __str__(self) -> str:
+        return f"{self.code}: {super().__str__()}"
+
+
 class MapError(ValueError):
     """Arrays that do not describe a map between two given meshes; the message says which row."""
 
@@ -116,3 +125,18 @@ class PairTimeout(Exception):
     """A pair took longer than it was allowed to."""
 
     code = "E504"
+
+
+class RenderingError(RuntimeError):
+    """Nothing can be drawn by the renderer that was asked for; the message says why and what to do."""
+
+    code = "E505"
+
+    def __str__(self) -> str:
+        return f"{self.code}: {super().__str__()}"
+
+
+class PictureFormat(FormatError):
+    """A picture in a format that there is none of; the message lists those that there are."""
+
+    code = "E216"

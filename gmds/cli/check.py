@@ -22,6 +22,9 @@ SHOWN = 6  # of the faces or vertices that a finding means
 def command(mesh: Path, as_json: bool) -> None:
     """Say what is unusual or wrong with the mesh in a file, without changing it.
 
+    \b
+      gmds check dog.ply
+
     A line for each finding, warnings first: a code that does not change between versions, how many faces or vertices
     are meant, the first of them (counted from 0), and what mends it: yes (gmds repair), a further option of it, or no.
     A mesh that can not be used at all ends with exit code 1.

@@ -34,6 +34,10 @@ FILE = click.Path(path_type=Path)
 def command(mesh: Path, output: Path, maps: Path | None, as_json: bool, **steps: Any) -> None:
     """Write a better version of MESH: no repeated or degenerate faces, none turned against its neighbours.
 
+    \b
+      gmds repair dog.ply -o better.ply --maps maps.npz
+      gmds repair scan.ply -o small.ply --decimate 5000
+
     Positions do not change and what stays keeps its order, unless one of the other steps is asked for; these follow
     in the order in which they are listed here. `gmds check` says which of them a mesh needs. --maps holds `vertex` and
     `face`, for each new one the old index, and `new_vertex` and `new_face`, for each old one the new; -1 is none. A
