@@ -17,8 +17,9 @@ from typing import Any
 from unittest import mock
 
 from halves import DEVELOPMENT
+from markdown import table
 from runs import Job, Rows, arguments, chosen_pairs, code_version, read_rows, run
-from tables import number, table
+from tables import number
 
 import geodesics
 import gmds.candidates

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import fault_judge
 from fault_judge import CLASSES
+from markdown import table
 
 PACKAGES = {"pyFM": "pyfmaps", "robust_laplacian": "robust-laplacian"}
 DOORS = {"V": "arrays (V)", "G": "odd surfaces (G)", "F": "files (F, S)", "S": "files (F, S)"}
@@ -26,11 +27,6 @@ class Row(NamedTuple):
     kept: bool | None
     seconds: float
     said: str
-
-
-def table(head: Sequence[str], lines: Sequence[Sequence[object]]) -> list[str]:
-    """A Markdown table and an empty line."""
-    return [f"| {' | '.join(map(str, line))} |" for line in (head, ["---"] * len(head), *lines)] + [""]
 
 
 def page(rows: Sequence[Row]) -> str:

@@ -22,8 +22,8 @@ from statistics import fmean, median
 from typing import Any
 
 import numpy as np
+from markdown import table
 from runs import ONE_THREAD, RESULTS, code_version
-from tables import table
 
 import gmds
 from geodesics import Mesh, read_mesh

@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from statistics import fmean, median
 
 from halves import PARTIAL
+from markdown import table
 
 from gmds.benchmarking import BenchmarkRow
 from gmds.correspondence import MatchStatus
@@ -50,11 +51,6 @@ def number(
     """One figure for a column, the mean unless said; a dash where there is none."""
     values = figures(rows, column)
     return f"{of(values):.{digits}f}" if values else "-"
-
-
-def table(head: Sequence[str], lines: Iterable[Sequence[str]]) -> list[str]:
-    """A Markdown table, and an empty line."""
-    return [f"| {' | '.join(line)} |" for line in (head, ["---"] * len(head), *lines)] + [""]
 
 
 def accuracy(found: Sections, goals: Mapping[str, str] = GOALS) -> list[str]:

@@ -66,7 +66,7 @@ ROWS: dict[str, str] = {
     "S05": "test_system, test_io::test_writing_through_a_link_or_over_a_file",
     "S06": "test_doctor::test_a_folder_that_can_not_be_written",
     "S07": "test_report::test_nothing_in_names_titles_or_meta_becomes_markup, "
-           "test_report::test_a_browser_draws_the_page_and_runs_nothing_foreign",
+           "test_report_browser::test_names_are_shown_as_they_are_and_run_nothing",
     "S08": "test_evaluation::test_formulas_in_names_stay_text, "
            "test_batch_parts::test_the_summary_can_be_opened_in_a_spreadsheet",
     "S09": "test_system::test_s09_c9_nothing_is_reached_or_opened_but_what_was_named",

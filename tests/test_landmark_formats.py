@@ -98,6 +98,8 @@ def test_the_other_frame_turns_x_and_y(tmp_path: Path, ending: str) -> None:
         ("a.pts", "Version 1.0\n1\nS000 1 2 3\n", ("S000",), [1, 2, 3]),
         ("a.pts", "nose 1 2 3\near 4 5 6\n", ("nose", "ear"), [1, 2, 3]),
         ("a.pts", "1 2 3\n", ("1",), [1, 2, 3]),
+        ("a.csv", "a, 1\x1c,\x1f2 ,3\n", ("a",), [1, 2, 3]),
+        ("a.csv", "name,vertex\na,7\x1c\n", ("a",), 7),
         ("a.mrk.json", markups({"label": "F-1", "position": [1, 2, 3]}, frame=None), ("F-1",), [1, 2, 3]),
         ("a.mrk.json", markups({"label": "F-1", "position": [1, 2, 3]}, frame="RAS"), ("F-1",), [-1, -2, 3]),
     ],

@@ -33,6 +33,7 @@ def is_number(word: str) -> bool:
 
 def position(path: Path, line: int, words: Sequence[str]) -> list[float]:
     """Three coordinates from three words."""
+    words = [word.strip() for word in words]
     if len(words) != 3:
         raise BadLandmarkFile(f"{path}, line {line}: {len(words)} coordinates; a landmark in space has 3")
     wrong = [word for word in words if not is_number(word)]
@@ -46,7 +47,8 @@ def position(path: Path, line: int, words: Sequence[str]) -> list[float]:
 
 def whole(path: Path, line: int, word: str, least: int = 0) -> int:
     """A whole number, at least `least`."""
-    if not re.fullmatch(WHOLE, word.strip(), re.ASCII):
+    word = word.strip()
+    if not re.fullmatch(WHOLE, word, re.ASCII):
         raise BadLandmarkFile(f"{path}, line {line}: {word[:40]!r} is not a whole number")
     if int(word) < least:
         raise BadLandmarkFile(f"{path}, line {line}: {int(word)} is below {least}")

@@ -1,0 +1,155 @@
+"""Mutation testing of the door: validators, readers, map algebra. Small faults, one at a time; do the tests notice?
+
+    python benchmarks/mutants.py --each 40 --seed 0
+
+Faults are drawn at random (`mutant.py` says which kinds there are); only the tests named here run for a module, until
+one fails. Writes results/mutants.csv, where what is done already is kept, and results/mutants.md with the survivors.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import importlib
+import os
+import signal
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+from markdown import table
+from mutant import faulty, install, places
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent
+RESULTS = HERE / "results"
+SECONDS = 120  # of processor time; a fault that makes a loop endless is noticed as well
+READERS = ("test_io", "test_bad_files", "test_truncation", "test_damage")
+MODULES: dict[str, tuple[str, ...]] = {
+    "geodesics._validation": ("test_bad_arrays", "test_points", "test_mesh"),
+    "geodesics._duck": ("test_bad_arrays",),
+    "geodesics.check": ("test_check", "test_repair"),
+    "geodesics.repair": ("test_repair",),
+    "geodesics.splitting": ("test_repair",),
+    "geodesics.orientation": ("test_check", "test_repair"),
+    "geodesics.memory": ("test_memory",),
+    **{f"geodesics.io.{name}": READERS for name in ("glb", "obj", "off", "opening", "ply", "stl", "text", "tosca")},
+    "geodesics.io.truncation": ("test_truncation",),
+    "geodesics.io.writing": ("test_io",),
+    "geodesics.io.atomic": ("test_bad_files", "test_system"),
+    "gmds._validation": ("test_landmarks",),
+    "gmds.landmarks": ("test_landmarks",),
+    "gmds.npz_file": ("test_npz_file", "test_map_file"),
+    "gmds.map_file": ("test_map_file", "test_npz_file"),
+    "gmds.algebra": ("test_correspondence",),
+    "gmds.correspondence": ("test_correspondence", "test_map_file"),
+    **{
+        f"gmds.landmark_files.{name}": ("test_landmark_formats",)
+        for name in ("landmarks", "plain", "reading", "slicer")
+    },
+}
+COLUMNS = ("module", "number", "killed", "where")
+Done = dict[tuple[str, int], tuple[bool, str]]
+
+
+def source(module: str) -> str:
+    """The text of a module."""
+    return (ROOT / f"{module.replace('.', '/')}.py").read_text(encoding="utf-8")
+
+
+def killed(module: str, number: int, hook: Path) -> bool:
+    """Whether the tests notice the fault; they run in a fork, so that what all have in common is imported once."""
+    child = os.fork()
+    if child == 0:
+        import pytest
+
+        quiet = os.open(hook / "said.txt", os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
+        os.dup2(quiet, 1)
+        os.dup2(quiet, 2)
+        signal.setitimer(signal.ITIMER_PROF, SECONDS)
+        paths = (str(hook), str(HERE), os.environ.get("PYTHONPATH", ""))
+        os.environ.update(GMDS_MUTANT=f"{module}:{number}", PYTHONPATH=os.pathsep.join(paths))
+        install()
+        os.chdir(ROOT)
+        tests = [f"tests/{name}.py" for name in MODULES[module]]
+        os._exit(int(pytest.main(["-x", "-q", "-p", "no:cacheprovider", *tests])) & 127)
+    deadline = time.monotonic() + 20 * SECONDS
+    while (status := os.waitpid(child, os.WNOHANG)) == (0, 0):
+        if time.monotonic() > deadline:
+            os.kill(child, signal.SIGKILL)
+        time.sleep(0.05)
+    return status[1] != 0
+
+
+def read(path: Path) -> Done:
+    """What was done before."""
+    if not path.exists():
+        return {}
+    with path.open(newline="", encoding="utf-8") as stream:
+        return {
+            (row["module"], int(row["number"])): (row["killed"] == "True", row["where"])
+            for row in csv.DictReader(stream)
+        }
+
+
+def write(path: Path, done: Done) -> None:
+    """All that is done."""
+    with path.open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(COLUMNS)
+        writer.writerows((*key, *value) for key, value in sorted(done.items()))
+
+
+def page(done: Done) -> str:
+    """The figures by module, and the survivors."""
+    rows: list[tuple[object, ...]] = []
+    for module in dict.fromkeys(name for name, _ in sorted(done)):
+        here = [was for (name, _), (was, _) in done.items() if name == module]
+        rows.append(
+            (f"`{module}`", places(source(module)), len(here), sum(here), f"{100 * sum(here) / len(here):.0f} %")
+        )
+    every = [was for was, _ in done.values()]
+    rows.append(("all", "", len(every), sum(every), f"{100 * sum(every) / max(1, len(every)):.1f} %"))
+    lines = [
+        "# Mutation testing",
+        "",
+        "`python benchmarks/mutants.py`: faults put in at random, and whether the tests notice.",
+        "",
+    ]
+    lines += table(["module", "places", "faults", "noticed", "share"], rows)
+    survivors = [(f"`{name}`", where) for (name, _), (was, where) in sorted(done.items()) if not was]
+    return "\n".join([*lines, "Not noticed:", "", *table(["module", "where"], survivors)])
+
+
+def main() -> None:
+    """Draw, run, write as it goes."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--each", type=int, default=20, help="faults a module (default: %(default)s)")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--only", choices=list(MODULES), action="append")
+    parser.add_argument("--again", action="store_true", help="run those again that were not noticed")
+    options = parser.parse_args()
+    for shared in ("pytest", "scipy.sparse", "scipy.spatial", "trimesh"):  # by all forks
+        importlib.import_module(shared)
+    path = RESULTS / "mutants.csv"
+    done = read(path)
+    with tempfile.TemporaryDirectory() as hook:
+        (Path(hook) / "sitecustomize.py").write_text("import mutant\nmutant.install()\n", encoding="utf-8")
+        for module in options.only or MODULES:
+            if killed(module, -1, Path(hook)):
+                said = (Path(hook) / "said.txt").read_text(encoding="utf-8", errors="replace")
+                sys.exit(f"the tests of {module} fail without any fault:\n{said[-3000:]}")
+            rng = np.random.default_rng([options.seed, *module.encode()])
+            for number in map(int, rng.permutation(places(source(module)))[: options.each]):
+                if (known := done.get((module, number))) and (known[0] or not options.again):
+                    continue
+                done[module, number] = killed(module, number, Path(hook)), faulty(source(module), number)[1]
+                print(module, *done[module, number], file=sys.stderr, flush=True)
+                write(path, done)
+                (RESULTS / "mutants.md").write_text(page(done), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

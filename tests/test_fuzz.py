@@ -1,0 +1,45 @@
+"""A few damaged files for every reader; `benchmarks/fuzz.py` runs as many as one has patience for."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+SCRIPTS = str(Path(__file__).parent.parent / "benchmarks")
+FILES = 150
+READERS = [
+    "OFF", "OBJ", "PLY, text", "PLY, binary", "STL, text", "STL, binary", "GLB", "TOSCA", "map", "measured surface",
+    "landmarks, .csv", "landmarks, .mrk.json", "landmarks, .fcsv", "landmarks, .tps", "landmarks, .pts",
+    "landmarks, .vts", "landmark pairs", "pair list", "values", "truth, .vts", "truth, .npz",
+]  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def fuzz() -> Iterator[Any]:
+    """The script."""
+    sys.path.insert(0, SCRIPTS)
+    yield importlib.import_module("fuzz")
+    sys.path.remove(SCRIPTS)
+
+
+def test_every_reader_is_fuzzed(fuzz: Any) -> None:
+    assert list(fuzz.TARGETS) == READERS
+
+
+@pytest.mark.parametrize("name", READERS)
+def test_damaged_files_are_refused_or_read_rightly(fuzz: Any, name: str, tmp_path: Path) -> None:
+    target = fuzz.TARGETS[name]
+    for content in target.sound():
+        fuzz.beside(target, tmp_path)
+        (tmp_path / target.name).write_bytes(content)
+        if name not in ("map", "TOSCA"):  # some of theirs are only there to be mixed with the others
+            assert fuzz.outcome(target, tmp_path / target.name) == "answered"
+    found = fuzz.run(name, 1, range(FILES), tmp_path)
+    assert found["failures"] == []
+    assert found["answered"] + found["refused"] == FILES
+    assert found["slowest"] < 5
