@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geodesics._kernels.spreading import closer_rows
+from geodesics.distance import FEWER_POINTS
 from geodesics.euclidean import euclidean_distances
+from geodesics.memory import table
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
 from geodesics.spectrum import Spectrum
@@ -37,9 +39,12 @@ class _SpectralDistance:
         object.__setattr__(self, "_linked", linked)
 
     def field(self, points: SurfacePoints) -> Array:
-        """Distances (p, n) from each point to every vertex; +inf at vertices that can not be reached."""
+        """Distances (p, n) from each point to every vertex; +inf at vertices that can not be reached.
+
+        Raises `WouldExceedMemory` (E501) when the table does not fit.
+        """
+        result = table(len(points), self.mesh.n_vertices, "distances", FEWER_POINTS)
         here = points.interpolate(self.embedding)
-        result = np.empty((len(points), self.mesh.n_vertices))
         for start in range(0, len(points), _BLOCK):
             rows = slice(start, start + _BLOCK)
             result[rows] = euclidean_distances(here[rows], self.embedding)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from enum import Enum
 from typing import Any
 
@@ -87,14 +87,18 @@ class Correspondence:
         object.__setattr__(self, "candidates", tuple(self.candidates))
 
     @classmethod
-    def from_points(cls, source: Mesh, points: SurfacePoints, **fields: Any) -> Correspondence:
+    def from_points(cls, source: Mesh, points: SurfacePoints, **others: Any) -> Correspondence:
         """The map that sends vertex i of `source` to `points[i]`; everything else is optional.
 
         `valid` is True except at vertices on no face, `distortion` is zero.
         """
-        fields.setdefault("valid", np.bincount(source.faces.ravel(), minlength=source.n_vertices) > 0)
-        fields.setdefault("distortion", np.zeros(source.n_vertices))
-        return cls(source=source, target=points.mesh, points=points, **fields)
+        others.setdefault("valid", np.bincount(source.faces.ravel(), minlength=source.n_vertices) > 0)
+        others.setdefault("distortion", np.zeros(source.n_vertices))
+        return cls(source=source, target=points.mesh, points=points, **others)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Unpickled maps are checked and frozen again."""
+        return type(self), tuple(getattr(self, column.name) for column in fields(self))
 
     def __repr__(self) -> str:
         counts = f"{self.source.n_vertices} -> {self.target.n_vertices} vertices, {int(self.valid.sum())} valid"

@@ -43,6 +43,15 @@ class UnknownKey(ValueError):
         return f"{self.code}: {super().__str__()}"
 
 
+class BadSetting(ValueError):
+    """A setting in a file with a value that it can not have, or a file of settings that can not be read."""
+
+    code = "E603"
+
+    def __str__(self) -> str:
+        return f"{self.code}: {super().__str__()}"
+
+
 class MapError(ValueError):
     """Arrays that do not describe a map between two given meshes; the message says which row."""
 

@@ -11,9 +11,9 @@ import json
 import os
 import zipfile
 import zlib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +27,7 @@ FORMAT, VERSION = "gmds-map", 1
 DTYPES = {"face": "<i4", "barycentric": "<f8", "vertex": "<i8", "valid": "|b1", "distortion": "<f4", "meta": "|u1"}
 MAX_META_BYTES = 16_000_000
 
+T = TypeVar("T")
 Arrays = dict[str, NDArray[Any]]
 
 
@@ -55,18 +56,27 @@ def read_map(path: str | os.PathLike[str], source: Mesh, target: Mesh) -> tuple[
     Raises `FormatError` with code E210 (members), E211 (arrays), E212 (other meshes), E213 (version) or
     E220 (pickled); `OSError` when the file can not be opened.
     """
-    path = Path(path)
+    return _opened(Path(path), lambda archive: _read_members(Path(path), archive, source, target))
+
+
+def _opened(path: Path, read: Callable[[zipfile.ZipFile], T]) -> T:
+    """What is read from the archive."""
     if path.exists() and not path.is_file():  # opening a pipe would wait for ever
         raise OSError(f"{path} is not a regular file")
     with path.open("rb") as stream:
         try:
             with zipfile.ZipFile(stream) as archive:
-                return _read_members(path, archive, source, target)
+                return read(archive)
         except FormatError:
             raise
         except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, OSError, ValueError, KeyError) as error:
             # what zipfile raises on bytes that were damaged after the archive was written
             raise MapMembers(f"{path} is not a readable npz archive ({error}); write it again with save()") from error
+
+
+def read_meta(path: str | os.PathLike[str]) -> dict[str, Any]:
+    """The meta data of a map alone, whatever meshes it belongs to. Raises as `read_map`."""
+    return _opened(Path(path), lambda archive: _parse_meta(Path(path), _member(Path(path), archive, "meta", None)))
 
 
 def _read_members(path: Path, archive: zipfile.ZipFile, source: Mesh, target: Mesh) -> tuple[Arrays, dict[str, Any]]:

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from gmds.cli.choices import chosen_distance, chosen_loss, distance_option, loss_option, metric_option
-from gmds.cli.group import UNFINISHED, Command
-from gmds.cli.output import emit, json_option, note, progress_bar, seed_option
+from gmds.cli.group import UNFINISHED
+from gmds.cli.matching_options import matching_arguments, matching_options
+from gmds.cli.output import emit, json_option, note, progress_bar
+from gmds.cli.settings import ConfiguredCommand
 
 if TYPE_CHECKING:
     from gmds.batch import Batch
@@ -21,25 +22,26 @@ SHOWN = 5  # cycles, and pairs to blame
 SHARES = ("within_005", "within_010")
 
 
-@click.command(cls=Command, short_help="Match many pairs, side by side.")
+@click.command("batch", cls=ConfiguredCommand, short_help="Match many pairs, side by side.")
 @click.argument("list_or_dir", type=PATH)
 @click.option("-o", "--output", default="batch", show_default=True, type=PATH, help="Folder.")
 @click.option(
     "--pairs", metavar="all|consecutive|template=NAME", help="Which shapes of a folder to match.  [default: all]"
 )
-@click.option("--both-ways", is_flag=True, help="Match every pair in both directions.")
+@click.option(
+    "--both-ways/--one-way", default=False, show_default=True, help="Match every pair in both directions, or in one."
+)
 @click.option("--timeout", type=click.FloatRange(min=0, min_open=True), help="Seconds that a pair may take.")
 @click.option("--workers", type=click.IntRange(min=1), help="Processes on this machine.  [default: one a processor]")
 @click.option("--scheduler", metavar="ADDRESS", help="Work on the cluster of this dask scheduler instead.")
-@click.option("--samples", type=int, help="How many samples the embedding places.")
-@click.option("--orientation", type=click.Choice(["preserve", "reverse", "any"]), default="preserve", show_default=True)
-@metric_option
-@distance_option
-@loss_option
-@seed_option
+@matching_options
 @json_option
 def command(list_or_dir: Path, output: Path, as_json: bool, **options: Any) -> None:
     """Match the pairs in a list, or those of all shapes in a folder, and write all maps to the output folder.
+
+    \b
+      gmds batch meshes -o maps
+      gmds batch pairs.txt -o maps --timeout 600
 
     A list is a text file with `A,B` a line, paths relative to it, or with one file a line. A folder stands for the
     meshes in it; each is matched with every later one, with the next (consecutive), or one with all (template=NAME).
@@ -62,19 +64,12 @@ def command(list_or_dir: Path, output: Path, as_json: bool, **options: Any) -> N
     address = options["scheduler"]
     if address is not None and options["workers"] is not None:
         raise click.UsageError("--workers is for this machine; with --scheduler its workers are used")
-    wanted: dict[str, Any] = {
-        "distance": chosen_distance(options["metric"], options["distance"]),
-        "loss": chosen_loss(options["loss"]),
-        "n_samples": options["samples"],
-        "orientation": options["orientation"],
-        "rng": options["seed"],
-    }
     choice = _choice(options["pairs"], options["both_ways"])
     quiet()
     client = remote_client(address) if address else local_client(options["workers"])
-    limits = {"timeout": options["timeout"], "client": client}
+    wanted = {**matching_arguments(options), "timeout": options["timeout"], "client": client}
     with progress_bar("batch", remaining=True) as progress:
-        done = match_collection(list_or_dir, output, pairs=choice, progress=progress, **limits, **wanted)
+        done = match_collection(list_or_dir, output, pairs=choice, progress=progress, **wanted)
     for line in _failures(done):
         note(f"gmds: {line}")
     emit(_told(done), as_json)

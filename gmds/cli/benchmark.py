@@ -3,36 +3,31 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
-from gmds.cli.choices import chosen_distance, chosen_loss, distance_option, loss_option, metric_option
-from gmds.cli.group import UNFINISHED, Command
-from gmds.cli.output import json_option, note, progress_bar, seed_option
+from gmds.cli.group import UNFINISHED
+from gmds.cli.matching_options import matching_arguments, matching_options
+from gmds.cli.output import json_option, note, progress_bar
+from gmds.cli.settings import ConfiguredCommand
 
 
-@click.command(cls=Command, short_help="Judge matching on a benchmark folder.")
+@click.command("benchmark", cls=ConfiguredCommand, short_help="Judge matching on a benchmark folder.")
 @click.argument("dataset_dir", type=click.Path(path_type=Path))
 @click.option("--pairs", type=click.Path(path_type=Path), help="The pairs to run, instead of the published ones.")
 @click.option("--every", default=1, show_default=True, type=click.IntRange(min=1), help="Run every N-th pair only.")
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="Write the rows as CSV.")
-@metric_option
-@distance_option
-@loss_option
-@seed_option
+@matching_options
 @json_option
 def command(
-    dataset_dir: Path,
-    pairs: Path | None,
-    every: int,
-    output: Path | None,
-    metric: str | None,
-    distance: str | None,
-    loss: str | None,
-    seed: int,
-    as_json: bool,
+    dataset_dir: Path, pairs: Path | None, every: int, output: Path | None, as_json: bool, **options: Any
 ) -> None:
     """Match every pair of a benchmark folder and judge it against the truth.
+
+    \b
+      gmds benchmark dataset -o rows.csv
+      gmds benchmark dataset --every 10 --json
 
     Every mesh is turned and resized at random first. A row says: mean error x100 (geodesic distance over the square
     root of the target's area) against the true correspondence (direct), the left-right flipped one (sym) and the better
@@ -50,13 +45,13 @@ def command(
     from gmds.benchmarking import BenchmarkRow, benchmark, means, write_csv
     from gmds.datasets import dataset_pairs
 
-    matcher = functools.partial(match, distance=chosen_distance(metric, distance), loss=chosen_loss(loss))
+    matcher = functools.partial(match, **matching_arguments(options))
     chosen = dataset_pairs(dataset_dir, pairs)[::every]
     rows: list[BenchmarkRow] = []
     if not as_json:
         click.echo(_line("pair", "direct", "sym", "best", "<0.10", "cover", "CPU s", "status"))
     with progress_bar("benchmark") as progress:
-        for row in benchmark(chosen, matcher, seed=seed):
+        for row in benchmark(chosen, matcher, seed=options["seed"]):
             rows.append(row)
             progress(row.pair, len(rows) / len(chosen))
             if not as_json:

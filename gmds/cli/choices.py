@@ -19,7 +19,6 @@ LOSSES = ("least-squares", "huber", "power", "minimax")
 
 metric_option = click.option("--metric", type=click.Choice(METRICS), help="Metric in which distances are measured.")
 distance_option = click.option("--distance", type=click.Choice(DISTANCES), help="Distance that the map preserves.")
-loss_option = click.option("--loss", type=click.Choice(LOSSES), help="How the misfit of distances is added up.")
 
 
 def chosen_metric(name: str) -> Callable[[Mesh], Metric]:

@@ -25,6 +25,10 @@ if TYPE_CHECKING:
 def command(output: Path, seed: int, as_json: bool) -> None:
     """Match two built-in shapes and judge the map against the truth.
 
+    \b
+      gmds demo
+      gmds demo -o somewhere --json
+
     The shapes are an animal, and the same animal in another pose, with its head twice as big and triangulated anew.
     The error is the mean geodesic distance from the truth over the square root of the area, times 100. It is printed
     for maps that preserve diffusion distances in the metric of space ("regular") and in the scale-invariant metric,

@@ -37,6 +37,9 @@ def command(
 ) -> None:
     """Judge the map in MAP: geodesic distance from the truth, over the square root of the target's area.
 
+    \b
+      gmds evaluate map.npz --source dog.ply --target wolf.off --truth truth.npz
+
     Truth files: a .npz with arrays src and gt (source vertices, target vertices, both from 0), and gt_sym if known;
     another map.npz; a .vts file (one target vertex a line, from 1) with the source's own .vts as --source-truth, or
     with one line per source vertex; SHREC'20 .mat landmarks of both.

@@ -7,31 +7,30 @@ from typing import Any
 
 import click
 
-from gmds.cli.choices import chosen_distance, chosen_loss, distance_option, loss_option, metric_option
-from gmds.cli.group import Command
 from gmds.cli.landmark_options import given_landmarks, space_option
-from gmds.cli.output import emit, json_option, progress_bar, seed_option
+from gmds.cli.matching_options import matching_arguments, matching_options
+from gmds.cli.output import emit, json_option, progress_bar
+from gmds.cli.settings import ConfiguredCommand
 from gmds.cli.views import view_options, write_views
 
 FILE = click.Path(path_type=Path)
 
 
-@click.command(cls=Command, short_help="Match two meshes and write the map.")
+@click.command("match", cls=ConfiguredCommand, short_help="Match two meshes and write the map.")
 @click.argument("source", type=FILE)
 @click.argument("target", type=FILE)
 @click.option("-o", "--output", default="map.npz", show_default=True, type=FILE, help="Where the map goes.")
 @view_options
 @click.option("--landmarks", type=FILE, multiple=True, help="Known points; given once or twice, see above.")
 @space_option
-@click.option("--samples", type=int, help="How many samples the embedding places.")
-@click.option("--orientation", type=click.Choice(["preserve", "reverse", "any"]), default="preserve", show_default=True)
-@metric_option
-@distance_option
-@loss_option
-@seed_option
+@matching_options
 @json_option
-def command(source: Path, target: Path, output: Path, as_json: bool, seed: int, **options: Any) -> None:
+def command(source: Path, target: Path, output: Path, as_json: bool, **options: Any) -> None:
     """Find for every vertex of SOURCE the point of TARGET that corresponds to it, and write the map.
+
+    \b
+      gmds match dog.ply wolf.off -o map.npz --report map.html --picture map.png
+      gmds match dog.ply wolf.off --landmarks dog.csv --landmarks wolf.csv
 
     Meshes are OFF, OBJ, PLY, STL, GLB or TOSCA .vert/.tri files. The map is a .npz that numpy alone can read.
 
@@ -45,16 +44,10 @@ def command(source: Path, target: Path, output: Path, as_json: bool, seed: int, 
     from gmds import match
 
     meshes = read_mesh(source), read_mesh(target)
-    wanted: dict[str, Any] = {
-        "distance": chosen_distance(options["metric"], options["distance"]),
-        "loss": chosen_loss(options["loss"]),
-        "landmarks": given_landmarks(options["landmarks"], options["space"]),
-    }
-    if options["samples"] is not None:
-        wanted["n_samples"] = options["samples"]
+    known = given_landmarks(options["landmarks"], options["space"])
     started = time.process_time()
     with progress_bar("match") as progress:
-        answer = match(*meshes, orientation=options["orientation"], rng=seed, progress=progress, **wanted)
+        answer = match(*meshes, landmarks=known, progress=progress, **matching_arguments(options))
     seconds = time.process_time() - started
     answer.save(output)
     emit({"map": str(output), "cpu_seconds": seconds, **described(answer)}, as_json)

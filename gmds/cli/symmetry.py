@@ -26,6 +26,9 @@ def command(mesh: Path, output: Path, vertices: int, as_json: bool, **shown: Any
     """Find the maps of MESH to itself, other than the identity, and write them.
 
     \b
+      gmds symmetry dog.ply -o mirror.npz --picture mirror.png
+
+    \b
     A limb or an ear may differ in size from its partner. All that are found are told, the best first:
       reversing    whether left and right are exchanged (a reflection), or not (a rotation)
       stress       how much distances change, over the mean distance

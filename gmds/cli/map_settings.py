@@ -1,0 +1,43 @@
+"""The settings that a map was made with, as the command line has them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from gmds.cli.choices import DISTANCES, LOSSES, METRICS, ChosenDistance, chosen_loss
+from gmds.cli.output import note
+from gmds.describing import in_words
+from gmds.errors import BadSetting
+from gmds.map_file import read_meta
+
+
+def map_settings(path: Path) -> dict[str, dict[str, Any]]:
+    """Settings by table; what the map was made by is told where it is another version.
+
+    Raises `FormatError` when it is no map, `BadSetting` (E603) for a distance or a loss of a user's own, which the
+    command line has no name for.
+    """
+    from gmds import __version__
+
+    meta = read_meta(path)
+    made, version = meta.get("parameters"), meta.get("versions", {}).get("gmds")
+    if not isinstance(made, dict) or "n_samples" not in made:
+        raise BadSetting(f"{path} was not made by matching and holds no settings")
+    if version != __version__:
+        note(f"{path} was made by gmds {version}; this is {__version__}, and the map may become another")
+    matching = {"samples": made["n_samples"], "orientation": made["orientation"], "seed": made["rng"]}
+    matching["loss"] = _named(path, "loss", made["loss"], ((name, chosen_loss(name)) for name in LOSSES))
+    if made["distance"] is not None:
+        pairs = (((m, d), ChosenDistance(m, d)) for m in METRICS for d in DISTANCES)
+        matching["metric"], matching["distance"] = _named(path, "distance", made["distance"], pairs)
+    return {"matching": matching}
+
+
+def _named(path: Path, what: str, words: str, known: Iterable[tuple[Any, Any]]) -> Any:
+    """The name of the thing that these words describe."""
+    for name, thing in known:
+        if in_words(thing) == words:
+            return name
+    raise BadSetting(f"{path} was made with the {what} {words:.200}, which has no name on the command line")
