@@ -130,7 +130,7 @@ class PairTimeout(Exception):
 class RenderingError(RuntimeError):
     """Nothing can be drawn by the renderer that was asked for; the message says why and what to do."""
 
-    code = "E505"
+    code = "E506"
 
     def __str__(self) -> str:
         return f"{self.code}: {super().__str__()}"
@@ -139,4 +139,4 @@ class RenderingError(RuntimeError):
 class PictureFormat(FormatError):
     """A picture in a format that there is none of; the message lists those that there are."""
 
-    code = "E216"
+    code = "E217"

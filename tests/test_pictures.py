@@ -55,7 +55,7 @@ def test_the_ending_names_the_format(answer: Correspondence, tmp_path: Path) -> 
         assert twice[0].read_bytes() == twice[1].read_bytes() and twice[0].read_bytes().startswith(first)
     assert "&lt;a&gt;" in (tmp_path / "a.svg").read_text()
     for name in ("map.tif", "map"):
-        with pytest.raises(PictureFormat, match=r"E216.*map.*\.png, \.jpg"):
+        with pytest.raises(PictureFormat, match=r"E217.*map.*\.png, \.jpg"):
             write_picture(tmp_path / name, answer)
     assert not list(tmp_path.glob("map*"))
 
@@ -95,7 +95,7 @@ def test_a_driver_that_fails_is_told_and_the_picture_drawn_all_the_same(
     monkeypatch.setattr(gmds.offscreen, "PATIENCE", 1 if "sleep" in code else 60)
     monkeypatch.setattr(gmds.offscreen, "_installed", lambda: True)
     why = answer.picture(tmp_path / "map.png", pixels=60)
-    assert WORKERS[code] in why and "E505" in why and (tmp_path / "map.png").exists()
+    assert WORKERS[code] in why and "E506" in why and (tmp_path / "map.png").exists()
     with pytest.raises(RenderingError, match=WORKERS[code]):
         answer.picture(tmp_path / "other.png", pixels=60, renderer=offscreen)
     assert not (tmp_path / "other.png").exists()
