@@ -19,7 +19,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
 import broken_arrays
 import broken_files
 import file_cases
-from odd_shapes import ODD, Odd
+from odd_shapes import BALL, ODD, Odd
 
 # Words of which an error must say at least one (or the place, "line 7") to count as naming the fault.
 NAMES_IT = {
@@ -27,7 +27,7 @@ NAMES_IT = {
     "V04": "empty|no vert|shape|size|zero|vert", "V05": "empty|no face|face|triang|point cloud",
     "V06": "index|indices|range|bound|outside|vertex", "V07": "index|indices|range|bound|negative|outside|vertex",
     "V08": "index|indices|range|bound|overflow|outside|large|int", "V09": "int|whole|dtype|type|float",
-    "V10": "dtype|type|bool|object|complex|str", "V11": "shape|dimension|column|3|three",
+    "V10": "type|bool|object|complex|str|real|whole|integer", "V11": "shape|dimension|column|3|three",
     "V12": "shape|triang|quad|corner|3|three", "V13": "shape|triang|corner|dimension|3|three", "V14": "mask",
     "G": "manifold|degenerate|area|duplicate|orient|component|connected|disconnected|boundary|unreferenced|isolated",
     "F01": "empty|no data|no vert|no face|0 bytes|size", "F06": "format|support|unknown|extension|recogni|type",
@@ -83,7 +83,8 @@ class Case:
     @property
     def words(self) -> str:
         """What an error must say to name the fault."""
-        return NAMES_IT.get(self.row, NAMES_IT.get(self.row[0], "")) + r"|line \d|byte \d"
+        named = NAMES_IT.get(self.row) or NAMES_IT.get(self.row[0]) or "(?!)"  # (?!): nothing does
+        return named + r"|line \d|byte \d"
 
 
 def _odd(make: Callable[[], Odd]) -> tuple[Any, Any, int, Odd | None]:
@@ -93,7 +94,7 @@ def _odd(make: Callable[[], Odd]) -> tuple[Any, Any, int, Odd | None]:
 
 def _layouts() -> Iterator[tuple[str, Any, Any]]:
     """V09, V15: the same mesh in forms that change nothing."""
-    v, f = file_cases.V, file_cases.F
+    v, f = BALL().vertices, BALL().faces
     yield "float faces", v, f.astype(float)
     yield "float32 vertices", v.astype(np.float32), f
     yield "int32 faces", v, f.astype(np.int32)
@@ -115,7 +116,8 @@ def _arrays() -> Iterator[Case]:
             meant = sound  # numbers in an odd type: converting them is an answer too
         yield Case(row, f"{row} refused {i}", code, says, functools.partial(lambda *given: given, v, f, 0, meant))
     for name, v, f in _layouts():
-        yield Case("V15", name, None, make=functools.partial(lambda *given: given, v, f, 0, sound))
+        meant = Odd(BALL().vertices, BALL().faces)
+        yield Case("V15", name, None, make=functools.partial(lambda *given: given, v, f, 0, meant))
     for row, name, make in ODD:
         yield Case(row, f"{row} {name}", None, make=functools.partial(_odd, make))
 

@@ -19,7 +19,7 @@ import scipy.sparse as sp
 from fault_cases import ARRAYS
 from fault_libraries import LIBRARIES
 
-MEMORY = 6 << 30
+MEMORY = 6 << 30  # bytes of address space
 
 
 def main() -> None:
@@ -62,13 +62,21 @@ def plain(answer: Any) -> dict[str, Any]:
     """An answer that JSON can carry."""
     if sp.issparse(answer):
         matrix = answer.tocoo()
-        return {"matrix": [matrix.row.tolist(), matrix.col.tolist(), matrix.data.tolist()], "shape": matrix.shape}
+        return {"matrix": [matrix.row.tolist(), matrix.col.tolist(), numbers(matrix.data)], "shape": matrix.shape}
     if isinstance(answer, tuple):
         vertices, faces = (np.asarray(part) for part in answer)
         if max(vertices.size, faces.size) > 100_000:
             return {"vertices": [], "faces": []}  # of no case
-        return {"vertices": vertices.tolist(), "faces": faces.tolist()}
-    return {"values": np.asarray(answer, dtype=float).ravel().tolist()}
+        return {"vertices": numbers(vertices), "faces": numbers(faces)}
+    return {"values": numbers(np.asarray(answer).ravel())}
+
+
+def numbers(array: Any) -> Any:
+    """An array as lists of floats; NaN where it holds anything else."""
+    array = np.asarray(array)
+    if array.dtype.kind not in "biuf":
+        return np.full(array.shape, np.nan).tolist()
+    return array.astype(float).tolist()
 
 
 if __name__ == "__main__":

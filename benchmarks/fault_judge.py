@@ -6,12 +6,13 @@
 | clear error | an exception whose message names the fault (a word of `NAMES_IT` in `fault_cases.py`) or the line |
 | unclear error | any other exception, or a wrong answer with an explanation printed beside it |
 | wrong, silently | any other answer: NaN, foreign memory, 0 where unreachable, a part of the faces |
-| crash | the process ends: signal, abort, exit |
-| hang | more than 20 s of processor time, or 180 s in all, for meshes of at most 1,000 vertices |
+| crash | the process ends: signal, abort, exit; also when the case is run again in a fresh process |
+| hang | more than 10 s of processor time, or 180 s in all, for meshes of at most 1,000 vertices |
 
-Right distances: within 5 % (mean) of the reference, +inf where unreachable. A right Laplacian: finite, symmetric,
-constants in its kernel, coordinates with an energy up to twice the area. A right file: its own arrays in its own order,
-up to the rounding of float32; STL by the corners of faces. For a broken file that is the mesh before it was broken.
+Right distances: within 5 % of the reference in the mean (50 % on less than ten vertices), +inf where unreachable. A
+right Laplacian: finite, symmetric, constants in its kernel, coordinates with an energy up to twice the area. A right
+file: its own arrays in its own order, up to the rounding of float32; STL by the corners of faces. For a broken file
+that is the mesh before it was broken.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ from odd_shapes import Odd
 
 CLASSES = ("right", "clear error", "unclear error", "wrong, silently", "crash", "hang")
 MEAN_ERROR = 0.05
+OF_FEW_VERTICES = 0.5  # below ten: the heat method can do no better
 
 
 def judge(case: Case, result: dict[str, Any]) -> str:
@@ -35,7 +37,7 @@ def judge(case: Case, result: dict[str, Any]) -> str:
         if ended in result:
             return ended
     if "error" in result:
-        named = re.search(case.words, result["message"], re.IGNORECASE)
+        named = re.search(case.words, result["message"].replace(case.name, ""), re.IGNORECASE)
         return "clear error" if named else "unclear error"
     if is_right(case, result):
         return "right"
@@ -78,7 +80,8 @@ def _same_distances(found: Any, reference: Any) -> bool:
     reached = np.isfinite(reference)
     if not np.array_equal(np.isfinite(found), reached):
         return False
-    return bool(np.abs(found[reached] - reference[reached]).mean() <= MEAN_ERROR * reference[reached].max())
+    allowed = MEAN_ERROR if len(reference) >= 10 else OF_FEW_VERTICES
+    return bool(np.abs(found[reached] - reference[reached]).mean() <= allowed * reference[reached].max())
 
 
 def _is_laplacian(matrix: sp.csr_matrix, shape: Odd) -> bool:

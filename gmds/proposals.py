@@ -113,7 +113,7 @@ def rough_maps(pair: SurfacePair, views: Sequence[tuple[View, View]], starts: Se
     spot[there.origin] = np.arange(len(there.origin))
     straight, turned = [], []
     sampled = side_by_side(lambda both: SampledPair.of(*both), views)
-    proposed = side_by_side(lambda one: hypotheses(one, starts, PROPOSED, thinned=True), sampled)
+    proposed = side_by_side(lambda one: hypotheses(one, starts, PROPOSED), sampled)
     for one, maps in zip(sampled, proposed, strict=True):
         for images in maps:
             straight.append(spot[one.carried(images, here.origin, there.origin)])

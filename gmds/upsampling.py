@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +19,6 @@ Index = NDArray[np.int64]
 
 SOURCE_SAMPLES = 400
 TARGET_SAMPLES = 1000
-FEW_SOURCE_SAMPLES, FEW_TARGET_SAMPLES = 200, 500  # while maps are many, and eigenfunctions few
 COARSE = (6, 7, 8, 10, 12, 14, 17, 20, 24)  # numbers of eigenfunctions while forms are compared too
 FORM_WEIGHT = 0.6
 JUDGED = 200  # samples and eigenfunctions that tell one start from another
@@ -44,12 +43,6 @@ class SampledPair:
     def of(cls, source: View, target: View, sense: int = 1) -> SampledPair:
         """The pair with the usual numbers of samples."""
         return cls(source, target, source.samples(SOURCE_SAMPLES), target.samples(TARGET_SAMPLES), sense)
-
-    @cached_property
-    def thinned(self) -> SampledPair:
-        """The pair with the first few of its samples: enough for as many eigenfunctions as `COARSE` begins with."""
-        ours, theirs = self.source_samples[:FEW_SOURCE_SAMPLES], self.target_samples[:FEW_TARGET_SAMPLES]
-        return replace(self, source_samples=ours, target_samples=theirs)
 
     @cached_property
     def source_rows(self) -> Array:
@@ -89,12 +82,11 @@ class SampledPair:
         rows = np.hstack([self.target_rows[:, :k] @ matrix.T, _signed_root(pulled_back_forms(theirs, matrix)) * scale])
         return nearest_rows(queries, rows)
 
-    def refined(self, images: Index, sizes: Iterable[int] = COARSE, begun: SampledPair | None = None) -> Index:
-        """A sample map, between the samples of `begun` if that is given, refined with ever more eigenfunctions."""
-        before = self if begun is None else begun
+    def refined(self, images: Index, sizes: Iterable[int] = COARSE) -> Index:
+        """A sample map refined with ever more eigenfunctions."""
         for k in sizes:
             if k <= min(self.source_rows.shape[1], self.target_rows.shape[1]):
-                images, before = self.images(before.matrix(images, k)), self
+                images = self.images(self.matrix(images, k))
         return images
 
     def dense(self, images: Index) -> Index:

@@ -33,6 +33,11 @@ class Odd:
         return graph_distances(self.vertices, self.faces if self.sound is None else self.sound, self.source)
 
     @functools.cached_property
+    def mesh(self) -> Mesh:
+        """As it is, checked."""
+        return Mesh(self.vertices, self.faces)
+
+    @functools.cached_property
     def area(self) -> float:
         """Area, every face counted once."""
         a, b, c = self.vertices[(self.faces if self.sound is None else self.sound).T]

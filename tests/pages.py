@@ -17,6 +17,7 @@ import numpy as np
 import pytest
 
 HOSTILE = "</script><script>document.title='owned'</script><img src=x onerror=\"document.title='owned'\"> &amp; ʃ\u202e"
+PATIENCE = 300_000  # ms: the machine may have other things to do
 FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 
 
@@ -97,5 +98,6 @@ class Visit:
         self.page.on("console", lambda message: self.said.append(f"{message.type}: {message.text}"))
         self.page.on("pageerror", lambda error: self.said.append(f"error: {error}"))
         self.page.on("request", lambda request: self.asked.append(request.url))
-        self.page.goto(path.as_uri())
-        self.page.wait_for_selector("body[data-ready]", timeout=120_000)
+        self.page.set_default_timeout(PATIENCE)
+        self.page.goto(path.as_uri(), timeout=PATIENCE)
+        self.page.wait_for_selector("body[data-ready]")

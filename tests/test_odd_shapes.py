@@ -69,7 +69,7 @@ def test_every_metric_and_its_spectrum_are_finite(
 def test_check_and_repair_answer(case: tuple[Odd, Mesh]) -> None:
     _, mesh = case
     assert check(mesh)
-    better, vertex, face, _ = repair(mesh)
+    better, vertex, face, *_ = repair(mesh)
     assert np.array_equal(better.vertices, mesh.vertices[vertex])
     corners = np.sort(vertex[better.faces], axis=1)
     assert np.array_equal(corners, np.sort(mesh.faces[face], axis=1))

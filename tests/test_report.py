@@ -61,7 +61,7 @@ def test_every_vertex_carries_its_barycentric_partner(answer: Correspondence, tm
         assert np.abs(shown["there"]["weights"].reshape(-1, 3) / 65535 - points.barycentric).max() < 1e-5
         corners = data["surfaces"][1]["vertices"].reshape(-1, 3)[answer.target.faces[points.face]]
         drawn = np.einsum("pk,pkj->pj", points.barycentric, corners)
-        assert np.abs(shown["there"]["position"].reshape(-1, 3) - drawn).max() < 1e-6
+        assert np.abs(shown["there"]["position"].reshape(-1, 3) / 65535 - 0.5 - drawn).max() < 1e-5
         assert np.array_equal(shown["there"]["found"], answer.valid)
     assert np.array_equal(data["maps"][0]["back"]["face"], back.points.face)
     assert np.array_equal(data["maps"][0]["back"]["found"], back.valid)

@@ -25,7 +25,7 @@ function drawHistogram(div, mode, counts, ramp) {
     width, marker: { color: Array.from(counts, (_, i) => ramp((i + 0.5) / counts.length)) },
     hovertemplate: "%{y:.1f} % near %{x:.3g}<extra></extra>",
   };
-  return Plotly.react(div, [trace], chartLayout(mode.axis, "% of vertices"), PLAIN);
+  return Plotly.react(div, [trace], chartLayout(mode.axis, `% of ${mode.counted}`), PLAIN);
 }
 
 function drawCurves(div, thresholds, curves, chosen) {

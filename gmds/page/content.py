@@ -102,7 +102,8 @@ def _modes(fields: Mapping[str, Array], n_vertices: int) -> list[dict[str, Any]]
             known = fields[key][np.isfinite(fields[key])]
             top = shown_range(known)[1] or float(known.max()) or 1.0
             sparse = SPARSE.format(f"{len(known):,}") if key == "error" and len(known) < n_vertices // 2 else ""
-            about = {"key": key, "label": label, "help": meaning + sparse, "noun": f"the {key}", "axis": axis}
+            counted = "points" if sparse else "vertices"
+            about = {"key": key, "label": label, "help": meaning + sparse, "axis": axis, "counted": counted}
             modes.append({**about, "high": top, "beyond": bool((known > top).any())})
     swatches = levels(np.array([LOST, FOUND])).tolist()
     modes.insert(
@@ -154,6 +155,6 @@ def _images(points: SurfacePoints, found: NDArray[np.bool_], onto: Drawing) -> d
         "face": small(points.face),
         "vertex": small(points.nearest_vertices()),
         "weights": np.rint(points.barycentric * 65535).astype("<u2"),
-        "position": onto.placed(points.positions),
+        "position": np.rint((onto.placed(points.positions) + 0.5).clip(0, 1) * 65535).astype("<u2"),
         "found": found.astype(np.uint8),
     }

@@ -66,7 +66,7 @@ class Page {
     at("histogram-part").hidden = !counts;
     at("curve-part").hidden = !data.maps[0].curve;
     if (counts) {
-      at("histogram-title").textContent = `How ${mode.noun} is spread`;
+      at("histogram-title").textContent = `How the ${mode.label.toLowerCase()} is spread`;
       await drawHistogram(at("histogram"), mode, counts, (share) => `rgb(${Array.from(this.ramp(share))})`);
     }
     const known = data.maps.filter((one) => one.curve);
@@ -80,7 +80,7 @@ class Page {
     return {
       face: images.face[vertex], vertex: images.vertex[vertex],
       weights: Array.from(images.weights.subarray(3 * vertex, 3 * vertex + 3), (w) => w / 65535),
-      position: Array.from(images.position.subarray(3 * vertex, 3 * vertex + 3)),
+      position: Array.from(images.position.subarray(3 * vertex, 3 * vertex + 3), (c) => c / 65535 - 0.5),
     };
   }
 
@@ -89,6 +89,7 @@ class Page {
     this.pointed = point;
     at("marks").toggleAttribute("hidden", !point);
     const readout = at("readout");
+    readout.setAttribute("aria-live", point && point === this.pinned ? "polite" : "off"); // hovering would chatter
     if (!point) {
       readout.textContent = "Point at either surface: its partner lights up on the other one. A click keeps the pair marked.";
       for (const key of Object.keys(readout.dataset)) delete readout.dataset[key];
