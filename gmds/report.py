@@ -41,7 +41,7 @@ def write_report(
     Pointing at one surface lights up the partner on the other. The page also shows the distortion, what has no
     counterpart, and every candidate of the map; and `errors`, geodesic over sqrt of the target's area, per source
     vertex: (n,), NaN where the truth is not known, or (k, n) with a row for the map and for each of the first k - 1
-    candidates. A surface with more than 10,000 vertices is drawn as a copy with some 8,000; what is told of a vertex
+    candidates. A surface with more than 12,000 vertices is drawn as a copy with some 8,000; what is told of a vertex
     holds for the whole surface. `up` is up in the source's coordinates; the target is turned to be seen from the same
     side. Titles and names are shown as they are, never read as markup; no script but the page's own may run.
     Raises `MissingExtra` without the extra `viz`, `OSError` when the file cannot be written.

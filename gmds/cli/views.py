@@ -12,6 +12,7 @@ from gmds.cli.fields import PICTURES, EndingIn
 from gmds.cli.output import note, tell_written
 
 FILE = click.Path(path_type=Path)
+Y_UP = (".obj", ".glb", ".gltf")  # where the format, or the custom, has y pointing up
 UP = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 
 report_option = click.option("--report", type=FILE, help="Write a page to turn both surfaces in a browser.")
@@ -19,7 +20,7 @@ picture_option = click.option(
     "--picture", type=EndingIn(*PICTURES), help="Draw both surfaces: .png, .jpg, .svg or .pdf."
 )
 up_option = click.option(
-    "--up", type=click.Choice(list(UP)), default="z", show_default=True, help="Axis of the meshes that is shown as up."
+    "--up", type=click.Choice(list(UP)), help="Axis of the meshes that is shown as up; y for .obj and .glb, else z."
 )
 
 
@@ -29,19 +30,27 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def write_views(
-    answer: Any, report: Path | None, picture: Path | None, errors: Any = None, *, up: str = "z", **details: Any
+    answer: Any,
+    report: Path | None,
+    picture: Path | None,
+    errors: Any = None,
+    *,
+    title: str,
+    names: tuple[str, str],
+    up: str | None = None,
 ) -> None:
     """The page and the picture that were asked for; each written file is named on stderr.
 
-    `errors` and `details` are those of `gmds.report.write_report`; the picture shows the errors of the best map.
+    `errors`, `title` and `names` are those of `gmds.report.write_report`; the picture shows the errors of the best map.
     """
+    upwards = UP[up or ("y" if Path(names[0]).suffix.lower() in Y_UP else "z")]
     if report is not None:
         from gmds.report import write_report
 
-        write_report(report, answer, errors, up=UP[up], **details)
+        write_report(report, answer, errors, title=title, names=names, up=upwards)
         note(f"wrote {report}")
     if picture is not None:
         from gmds.pictures import write_picture
 
         first = None if errors is None else errors[0]
-        tell_written(picture, write_picture(picture, answer, first, up=UP[up], **details))
+        tell_written(picture, write_picture(picture, answer, first, title=title, names=names, up=upwards))

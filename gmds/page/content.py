@@ -124,7 +124,7 @@ def _map(
     """Where each drawn vertex goes, there and back, and what the colours of the surfaces stand for."""
     (ours, theirs), (here, there) = drawn, (drawn[0].origin, drawn[1].origin)
     points, gap = preimage(one, there)
-    reached = gap <= FAR
+    reached = (gap <= FAR) & np.isin(there, one.target.faces)
     colours = one.points.interpolate(target_colours)
     colours[~one.valid] = MISSING
     values: dict[str, list[NDArray[Any]]] = {"valid": [one.valid[here].astype(np.uint8), reached.astype(np.uint8)]}

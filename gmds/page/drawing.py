@@ -15,7 +15,7 @@ from gmds.geometry import decimated
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
-MOST = 10_000  # vertices up to which a surface is drawn as it is
+MOST = 12_000  # vertices up to which a surface is drawn as it is
 DRAWN = 8_000  # vertices, about, of what is drawn of a larger one
 DIAMETER = 0.99  # of the ball that a surface is drawn in; the axes of the page are of length one
 
