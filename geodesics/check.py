@@ -34,6 +34,16 @@ from geodesics.topology import vertex_components
 
 NAMED = 100  # at most so many indices are listed in a note
 
+# What `gmds repair` needs to be told to mend it ("": nothing); codes that are not here it can not mend.
+REMEDIES = {
+    **dict.fromkeys(("W201", "W202", "W204", "W215"), ""),
+    "W203": "--remesh",
+    "W219": "--weld",
+    **dict.fromkeys(("W213", "W214"), "--cut"),
+    "W216": "--largest",
+    "W217": "--fill-holes",
+}
+
 
 def check(mesh: Mesh) -> list[Note]:
     """Notes on a mesh, warnings first; an empty list is never returned, as the topology is always told (W218)."""
@@ -46,7 +56,7 @@ def _warn(code: str, mask: NDArray[np.bool_], sentence: str) -> list[Note]:
     where = np.flatnonzero(mask)
     if not len(where):
         return []
-    return [Note(code, "warning", sentence.format(len(where)), tuple(where[:NAMED].tolist()))]
+    return [Note(code, "warning", sentence.format(len(where)), tuple(where[:NAMED].tolist()), len(where))]
 
 
 def repeated_faces(mesh: Mesh) -> NDArray[np.bool_]:
@@ -87,7 +97,7 @@ def _manifold(mesh: Mesh) -> Iterable[Note]:
     where = table.ends[table.n_faces > 2]
     if len(where):
         message = f"{len(where)} edges have more than two faces, first the one between vertices {where[0].tolist()}"
-        yield Note("W213", "warning", message, tuple(np.unique(where)[:NAMED].tolist()))
+        yield Note("W213", "warning", message, tuple(np.unique(where)[:NAMED].tolist()), len(where))
     sound = ~degenerate_faces(mesh)
     _, first = np.unique(corner_fans(mesh)[sound], return_index=True)
     fans = np.bincount(mesh.faces[sound].ravel()[first], minlength=mesh.n_vertices)
@@ -123,14 +133,14 @@ def _topology(mesh: Mesh) -> Iterable[Note]:
     parts = int(vertex_components(mesh).max()) + 1
     if parts > 1:
         sizes = np.sort(np.bincount(vertex_components(mesh)[vertex_components(mesh) >= 0]))[::-1]
-        yield Note("W216", "warning", f"{parts} components, of {', '.join(map(str, sizes[:5]))} vertices")
+        yield Note("W216", "warning", f"{parts} components, of {', '.join(map(str, sizes[:5]))} vertices", (), parts)
     fan_labels, fans = np.unique(corner_fans(mesh)[sound], return_inverse=True)
     rim = (table.n_faces[table.of_side] == 1)[sound]
     fans = fans.reshape(-1, 3)
     start, end = fans[rim], np.roll(fans, -1, axis=1)[rim]
     loops = len(np.unique(components(start, end, len(fan_labels))[start]))
     if loops:
-        yield Note("W217", "info", f"{loops} boundary loops with {len(start)} edges")
+        yield Note("W217", "info", f"{loops} boundary loops with {len(start)} edges", (), loops)
     euler = len(np.unique(mesh.faces[sound])) - len(table.ends) + int(sound.sum())
     message = f"Euler characteristic {euler}"
     if (table.n_faces <= 2).all() and not orientation(mesh).one_sided.any():

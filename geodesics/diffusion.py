@@ -8,7 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from geodesics._kernels.spreading import closer_rows
+from geodesics.distance import FEWER_POINTS
 from geodesics.euclidean import euclidean_distances
+from geodesics.memory import table
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
 from geodesics.spectrum import Spectrum
@@ -36,9 +39,12 @@ class _SpectralDistance:
         object.__setattr__(self, "_linked", linked)
 
     def field(self, points: SurfacePoints) -> Array:
-        """Distances (p, n) from each point to every vertex; +inf at vertices that can not be reached."""
+        """Distances (p, n) from each point to every vertex; +inf at vertices that can not be reached.
+
+        Raises `WouldExceedMemory` (E501) when the table does not fit.
+        """
+        result = table(len(points), self.mesh.n_vertices, "distances", FEWER_POINTS)
         here = points.interpolate(self.embedding)
-        result = np.empty((len(points), self.mesh.n_vertices))
         for start in range(0, len(points), _BLOCK):
             rows = slice(start, start + _BLOCK)
             result[rows] = euclidean_distances(here[rows], self.embedding)
@@ -50,18 +56,10 @@ class _SpectralDistance:
 
     def spreader(self) -> Callable[[int, Array], tuple[NDArray[np.int64], Array]]:
         """A function (vertex, nearest (n,)) -> the vertices closer to this one than `nearest`, and their distances."""
-        e, label = self.embedding, vertex_components(self.mesh)
-        norm = np.einsum("ik,ik->i", e, e)
+        rows, label, linked = self.embedding, vertex_components(self.mesh), self._linked
 
         def closer(vertex: int, nearest: Array) -> tuple[NDArray[np.int64], Array]:
-            squared = norm + norm[vertex] - 2 * (e @ e[vertex])
-            mask = (squared < nearest**2) & (label >= 0)
-            if not self._linked:
-                mask &= label == label[vertex]
-            where = np.flatnonzero(mask)
-            distance = np.linalg.norm(e[where] - e[vertex], axis=1)
-            kept = distance < nearest[where]
-            return where[kept], distance[kept]
+            return closer_rows(rows, label, linked, vertex, nearest)
 
         return closer
 

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
 
+FEWER_POINTS = "measure from fewer points at a time, or from samples (`farthest_point_sampling`)"
+
 
 class Distance(Protocol):
     """Anything that measures distances from points to all vertices of one mesh."""

@@ -8,12 +8,16 @@ from typing import Literal
 
 @dataclass(frozen=True)
 class Note:
-    """Worth knowing, but no error: a stable `code`, its `severity`, a sentence, and the faces or vertices meant."""
+    """Worth knowing, but no error: a stable `code`, its `severity`, a sentence, and the faces or vertices meant.
+
+    `indices` holds the first of them, `count` says how many there are, where they are counted.
+    """
 
     code: str
     severity: Literal["info", "warning"]
     message: str
     indices: tuple[int, ...] = ()
+    count: int | None = None
 
     def __str__(self) -> str:
         return f"{self.code}: {self.message}"
@@ -167,6 +171,15 @@ class ExternalReference(FormatError):
     """The file refers to another file, which is never opened."""
 
     code = "E222"
+
+
+class WouldExceedMemory(MemoryError):
+    """A table larger than the memory that is free; the message says how large, and what to do instead."""
+
+    code = "E501"
+
+    def __str__(self) -> str:
+        return f"{self.code}: {super().__str__()}"
 
 
 class MissingExtra(ImportError):

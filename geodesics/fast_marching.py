@@ -13,6 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 from geodesics._front import corners, fresh_front, longest_edges
 from geodesics._kernels import marching
 from geodesics._seeds import seeds
+from geodesics.distance import FEWER_POINTS
+from geodesics.memory import table
 from geodesics.mesh import Mesh
 from geodesics.metric import Metric
 from geodesics.points import SurfacePoints
@@ -40,9 +42,13 @@ class GeodesicDistance:
         return self.metric.mesh
 
     def field(self, points: SurfacePoints, *, limit: float = np.inf) -> Floats:
-        """Distances (p, n) from each of p points to every vertex; +inf where unreachable or farther than `limit`."""
+        """Distances (p, n) from each of p points to every vertex; +inf where unreachable or farther than `limit`.
+
+        Raises `WouldExceedMemory` (E501) when the table does not fit.
+        """
+        out = table(len(points), self.mesh.n_vertices, "distances", FEWER_POINTS)
         around = seeds(self.metric, points)
-        out = np.full((len(points), self.mesh.n_vertices), np.inf)
+        out[:] = np.inf
         until = _until(self.metric, limit=limit)
 
         def march(chunk: range) -> None:

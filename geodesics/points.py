@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -37,6 +38,10 @@ class SurfacePoints:
         object.__setattr__(self, "mesh", mesh)
         object.__setattr__(self, "face", f)
         object.__setattr__(self, "barycentric", b)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Unpickled points are checked and frozen again."""
+        return SurfacePoints, (self.mesh, self.face, self.barycentric)
 
     @classmethod
     def at_vertices(cls, mesh: Mesh, indices: ArrayLike) -> SurfacePoints:

@@ -1,46 +1,57 @@
 """Making a better mesh out of one, with the way back: removing defects, decimation, remeshing, closing holes.
 
-`remesh` and `fill_holes` run pymeshlab, which is GPL-3 and therefore an extra: `pip install gmds[repair]`.
+`remesh` and `fill_holes` run pymeshlab, which is GPL-3 and therefore an extra (`pip install gmds[repair]`), in a
+process of its own.
 """
 
 from __future__ import annotations
 
-from types import ModuleType
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from geodesics.check import repeated_faces
+from geodesics import intrinsic
+from geodesics._meshlab import apply_filter
+from geodesics.check import NAMED, repeated_faces
 from geodesics.edges import degenerate_faces, edges
-from geodesics.errors import MeshError, MissingExtra, Note, NotManifold
+from geodesics.errors import MeshError, Note, NotManifold
 from geodesics.mesh import Mesh
 from geodesics.orientation import orient_faces
+from geodesics.splitting import split
+from geodesics.topology import vertex_components
 
 
 class Repaired(NamedTuple):
-    """A new mesh and where it came from: `vertex` (n,) and `face` (m,) index the old mesh; `notes` say what changed."""
+    """A new mesh, and the way from the old one and back; `notes` say what changed.
+
+    `vertex` (n,) and `face` (m,) index the old mesh; `new_vertex` and `new_face` say for each vertex and face of the
+    old mesh which new one it became, -1 for none. A vertex that was split became the first of its copies.
+    """
 
     mesh: Mesh
     vertex: NDArray[np.int64]
     face: NDArray[np.int64]
     notes: list[Note]
+    new_vertex: NDArray[np.int64]
+    new_face: NDArray[np.int64]
 
 
-def repair(mesh: Mesh, *, weld: bool = False) -> Repaired:
+def repair(mesh: Mesh, *, weld: bool = False, cut: bool = False, largest: bool = False) -> Repaired:
     """Drop repeated and degenerate faces and vertices on no face, orient faces consistently (outward when closed).
 
-    Vertices and faces that stay keep their order; positions do not change. `weld` also joins vertices at exactly
-    equal positions. Raises `MeshError` when nothing is left.
+    Vertices and faces that stay keep their order; positions do not change. `weld` first joins vertices at exactly
+    equal positions; `cut` takes apart edges of more than two faces and vertices that join several fans, copies of
+    vertices coming last (see `geodesics.splitting.split`); `largest` keeps the component of the largest area only.
+    Raises `MeshError` when nothing is left.
     """
     notes: list[Note] = []
-    faces = mesh.faces
+    of_vertex, faces = np.arange(mesh.n_vertices), mesh.faces
     if weld:
         _, first, inverse = np.unique(mesh.vertices + 0.0, axis=0, return_index=True, return_inverse=True)
-        faces = first[inverse.reshape(-1)][faces]
-        _note(
-            notes, "W219", np.flatnonzero(first[inverse.reshape(-1)] != np.arange(mesh.n_vertices)), "vertices welded"
-        )
+        of_vertex = first[inverse.reshape(-1)]
+        faces = of_vertex[faces]
+        _note(notes, "W219", np.flatnonzero(of_vertex != np.arange(mesh.n_vertices)), "vertices welded")
     kept = np.arange(len(faces))
     for code, found, sentence in (
         ("W202", degenerate_faces, "faces that name a vertex twice removed"),
@@ -49,12 +60,45 @@ def repair(mesh: Mesh, *, weld: bool = False) -> Repaired:
         bad = found(Mesh(mesh.vertices, faces[kept]))
         _note(notes, code, kept[bad], sentence)
         kept = kept[~bad]
-    vertex, compact = np.unique(faces[kept], return_inverse=True)
-    _note(notes, "W215", np.setdiff1d(np.arange(mesh.n_vertices), vertex), "vertices on no face removed")
-    clean = Mesh(mesh.vertices[vertex], compact.reshape(-1, 3))
+    vertex, clean = _compact(np.arange(mesh.n_vertices), mesh.vertices, faces[kept])
+    _note(notes, "W215", np.setdiff1d(of_vertex, vertex), "vertices on no face removed")
+    if cut:
+        apart, copies = split(clean)
+        doubled = np.unique(vertex[copies[clean.n_vertices :]])
+        _note(notes, "W213", doubled, "vertices doubled where more than two faces or several fans met")
+        vertex, clean = vertex[copies], apart
+    if largest:
+        inside = _largest(clean)
+        _note(notes, "W216", kept[~inside], "faces of other components removed")
+        kept = kept[inside]
+        vertex, clean = _compact(vertex, clean.vertices, clean.faces[inside])
     oriented = orient_faces(clean)
     _note(notes, "W204", kept[(oriented.faces != clean.faces).any(axis=1)], "faces turned")
-    return Repaired(oriented, vertex, kept, notes)
+    new_vertex = inverse_index(vertex, mesh.n_vertices)[of_vertex]
+    return Repaired(oriented, vertex, kept, notes, new_vertex, inverse_index(kept, mesh.n_faces))
+
+
+def inverse_index(index: NDArray[np.int64], n: int) -> NDArray[np.int64]:
+    """For each of 0 .. n - 1 where it first stands in `index`, -1 where it does not or `index` is -1: shape (n,)."""
+    place = np.full(n, -1, dtype=np.int64)
+    known = np.flatnonzero(index >= 0)[::-1]
+    place[index[known]] = known
+    return place
+
+
+def _compact(
+    vertex: NDArray[np.int64], positions: NDArray[np.float64], faces: NDArray[np.int64]
+) -> tuple[NDArray[np.int64], Mesh]:
+    """The vertices that faces use, by their names in `vertex`, and the mesh of only these."""
+    used, compact = np.unique(faces, return_inverse=True)
+    return vertex[used], Mesh(positions[used], compact.reshape(-1, 3))
+
+
+def _largest(mesh: Mesh) -> NDArray[np.bool_]:
+    """Faces (m,) of the component with the largest area."""
+    part = vertex_components(mesh)[mesh.faces[:, 0]]
+    area = intrinsic.areas(intrinsic.squared_lengths(mesh.vertices, mesh.faces))
+    return np.asarray(part == np.bincount(part, weights=area).argmax())
 
 
 def decimate(mesh: Mesh, n_faces: int) -> Repaired:
@@ -72,7 +116,9 @@ def decimate(mesh: Mesh, n_faces: int) -> Repaired:
     center, size = _frame(start.mesh)
     v = (start.mesh.vertices - center) / size  # a unit-sized copy: quadrics do not underflow at any scale
     u, g, face, vertex = igl.qslim(v, start.mesh.faces.astype(np.int32), int(n_faces), False)
-    return Repaired(Mesh(u * size + center, g), start.vertex[vertex], start.face[face], start.notes)
+    vertex, face = start.vertex[vertex], start.face[face]
+    back = inverse_index(vertex, mesh.n_vertices), inverse_index(face, mesh.n_faces)
+    return Repaired(Mesh(u * size + center, g), vertex, face, start.notes, *back)
 
 
 def remesh(mesh: Mesh, target_vertices: int, *, iterations: int = 10) -> Mesh:
@@ -83,7 +129,6 @@ def remesh(mesh: Mesh, target_vertices: int, *, iterations: int = 10) -> Mesh:
     """
     if target_vertices < 4:
         raise ValueError(f"target_vertices must be at least 4, not {target_vertices}")
-    pymeshlab = _pymeshlab("remesh")
     center, size = _frame(mesh)
     unit = (mesh.vertices - center) / size
     a, b, c = unit[mesh.faces.T]
@@ -91,12 +136,11 @@ def remesh(mesh: Mesh, target_vertices: int, *, iterations: int = 10) -> Mesh:
     length = np.sqrt(area / target_vertices * 2 / np.sqrt(3))  # a vertex of the equilateral tiling owns sqrt(3)/2 l^2
     v, f = unit, mesh.faces
     for _ in range(4):  # edges come out somewhat longer or shorter than asked: correct the length and start again
-        v, f = _run(
-            pymeshlab,
+        v, f = apply_filter(
             "meshing_isotropic_explicit_remeshing",
             unit,
             mesh.faces,
-            targetlen=pymeshlab.PureValue(float(length)),
+            targetlen=float(length),
             iterations=iterations,
         )
         if abs(len(v) / target_vertices - 1) < 0.05:
@@ -111,33 +155,13 @@ def fill_holes(mesh: Mesh, max_edges: int = 1000) -> Mesh:
     Vertices and existing faces stay as they are; the new faces come last. Raises `MissingExtra`, and `NotManifold`
     (E110) for edges of more than two faces.
     """
-    pymeshlab = _pymeshlab("fill_holes")
     _refuse_branching(mesh)
     center, size = _frame(mesh)
     unit = (mesh.vertices - center) / size
-    v, f = _run(pymeshlab, "meshing_close_holes", unit, mesh.faces, maxholesize=int(max_edges), selfintersection=False)
+    v, f = apply_filter("meshing_close_holes", unit, mesh.faces, maxholesize=int(max_edges), selfintersection=False)
     if len(v) != mesh.n_vertices or not np.array_equal(f[: mesh.n_faces], mesh.faces):
         raise MeshError("closing holes changed the vertices; repair the mesh first")
     return Mesh(mesh.vertices, f)
-
-
-def _run(pymeshlab: ModuleType, name: str, v: Any, f: Any, **options: Any) -> tuple[Any, Any]:
-    """One pymeshlab filter: vertices and faces in, vertices and faces out."""
-    meshes = pymeshlab.MeshSet()
-    meshes.add_mesh(pymeshlab.Mesh(v, f.astype(np.int32)))
-    try:
-        meshes.apply_filter(name, **options)
-    except pymeshlab.PyMeshLabException as error:
-        raise MeshError(f"pymeshlab can not process the mesh ({error}); repair it first") from error
-    return meshes.current_mesh().vertex_matrix(), meshes.current_mesh().face_matrix().astype(np.int64)
-
-
-def _pymeshlab(name: str) -> ModuleType:
-    try:
-        import pymeshlab
-    except ImportError as error:
-        raise MissingExtra(f"{name} needs pymeshlab; install it with: pip install 'gmds[repair]'") from error
-    return pymeshlab
 
 
 def _frame(mesh: Mesh) -> tuple[NDArray[np.float64], float]:
@@ -156,4 +180,4 @@ def _refuse_branching(mesh: Mesh) -> None:
 
 def _note(notes: list[Note], code: str, where: NDArray[np.int64], sentence: str) -> None:
     if len(where):
-        notes.append(Note(code, "info", f"{len(where)} {sentence}", tuple(where[:100].tolist())))
+        notes.append(Note(code, "info", f"{len(where)} {sentence}", tuple(where[:NAMED].tolist()), len(where)))

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from geodesics.memory import table
 from geodesics.points import SurfacePoints
 from geodesics.spectrum import Spectrum
 
@@ -18,10 +19,12 @@ Array = NDArray[np.float64]
 def heat_kernel(spectrum: Spectrum, time: float, points: SurfacePoints) -> Array:
     """Heat kernel h_t(s, s') = sum_i exp(-lambda_i t) phi_i(s) phi_i(s') (sec. 3), from points to vertices: (p, n).
 
-    `time` >= 0 in units of the surface area; values in units of 1 / area.
+    `time` >= 0 in units of the surface area; values in units of 1 / area. Raises `WouldExceedMemory` (E501) when the
+    table does not fit.
     """
     fade = np.exp(-spectrum.eigenvalues * (_times(time)[0] * spectrum.mass.sum()))
-    return (points.interpolate(spectrum.eigenfunctions) * fade) @ spectrum.eigenfunctions.T
+    result = table(len(points), len(spectrum.mass), "values of the heat kernel", "take fewer points at a time")
+    return np.matmul(points.interpolate(spectrum.eigenfunctions) * fade, spectrum.eigenfunctions.T, out=result)
 
 
 def heat_kernel_signature(spectrum: Spectrum, times: ArrayLike) -> Array:

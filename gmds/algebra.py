@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from geodesics import intrinsic
 from geodesics.closest import closest_on_triangles
@@ -30,19 +30,28 @@ def invert(answer: Correspondence) -> Correspondence:
     dropped.
     """
     source, target = answer.source, answer.target
+    points, gap = preimage(answer, np.arange(target.n_vertices))
+    valid = (gap <= FAR) & (np.bincount(target.faces.ravel(), minlength=target.n_vertices) > 0)
+    distortion = np.where(np.isfinite(gap), points.interpolate(answer.distortion) + gap, 1.0)
+    return Correspondence(target, source, points, valid, distortion, answer.status, (), answer.meta)
+
+
+def preimage(answer: Correspondence, vertices: ArrayLike) -> tuple[SurfacePoints, Array]:
+    """Where target vertices (p,) come from, as `invert` has it, and their distance (p,) from the nearest image.
+
+    The distance is over sqrt(target area), infinite where nothing has an image.
+    """
+    source, target = answer.source, answer.target
     image, size = answer.points.positions, np.sqrt(target.area)
+    queries = target.vertices[np.asarray(vertices, dtype=np.int64)]
     usable = np.flatnonzero(answer.valid[source.faces].all(axis=1) & ~_torn(source, image, size))
     if len(usable) == 0:
-        points = SurfacePoints(
-            source, np.zeros(target.n_vertices, dtype=np.int64), np.eye(3)[np.zeros(target.n_vertices, int)]
+        nowhere = SurfacePoints(
+            source, np.zeros(len(queries), dtype=np.int64), np.tile(np.eye(3)[0], (len(queries), 1))
         )
-        none = np.zeros(target.n_vertices, dtype=bool)
-        return Correspondence(target, source, points, none, np.ones(target.n_vertices), answer.status, (), answer.meta)
-    face, weights, gap = closest_on_triangles(target.vertices, image, source.faces[usable])
-    points = SurfacePoints(source, usable[face], weights)
-    valid = (gap <= FAR * size) & (np.bincount(target.faces.ravel(), minlength=target.n_vertices) > 0)
-    distortion = points.interpolate(answer.distortion) + gap / size
-    return Correspondence(target, source, points, valid, distortion, answer.status, (), answer.meta)
+        return nowhere, np.full(len(queries), np.inf)
+    face, weights, gap = closest_on_triangles(queries, image, source.faces[usable])
+    return SurfacePoints(source, usable[face], weights), gap / size
 
 
 def compose(first: Correspondence, second: Correspondence) -> Correspondence:

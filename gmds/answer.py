@@ -50,6 +50,16 @@ def answer(placed: Sequence[Embedded], meta: Mapping[str, Any]) -> Correspondenc
     )
 
 
+def contenders(placed: Sequence[Embedded]) -> list[Embedded]:
+    """The most likely map and, if it is nearly as likely, the next: to be refined before one is chosen.
+
+    `placed`: the most likely first. Where there is a boundary refinement has no say in which is the more likely.
+    """
+    best = placed[0]
+    close = [e for e in placed[1:] if e.evidence.closed and e.evidence.loss < best.evidence.loss + CLOSE]
+    return [best, *close[:1]]
+
+
 def versions() -> dict[str, str]:
     """What computed the numbers."""
     numeric = {name: version(name) for name in ("numpy", "scipy", "numba")}

@@ -31,7 +31,7 @@ ITERATIONS = 20
 REST = tuple(range(1, len(ROUNDS)))  # rounds of alignment of a map that is good already
 FINE_LADDER = (40, 50, 60, 70, 80, 90, 100)  # numbers of eigenfunctions for such a map
 REPEATS = 2  # more refinements, if each pays
-RETURNS = 3  # registrations there and back
+RETURNS = 2  # registrations there and back
 GAIN = 0.005  # share of the energy by which each must lower it, where parts grew
 SPECTRAL_GAIN = 0.08  # and by which eigenfunctions must: more where nothing grew, less across species
 
@@ -87,7 +87,6 @@ def finished(best: Embedded, progress: Callable[[float], None] | None = None) ->
     if now.residuals.is_congruence:
         return best
     regular = pair.source.regular, pair.target.regular
-    detail = pair.source.detail, pair.target.detail
     tell = progress or (lambda share: None)
 
     def in_space(points: SurfacePoints) -> Registered:
@@ -107,9 +106,9 @@ def finished(best: Embedded, progress: Callable[[float], None] | None = None) ->
             break
         now = trial
     tell(0.3)
-    trial = settled(*pair.geometries, now.y, SETTLE, growing=True, partial=True, views=detail)
+    trial = settled(*pair.geometries, now.y, SETTLE, growing=True, partial=True, views=regular)
     isometric = trial.residuals.cost < (1 - SPECTRAL_GAIN) * now.residuals.cost
-    now, views = (trial, detail) if isometric else (now, None)
+    now, views = (trial, regular) if isometric else (now, None)
     for number in range(RETURNS):
         tell(0.4 + 0.6 * number / RETURNS)
         trial = both_ways(*pair.geometries, now, views)

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.spatial import cKDTree
+
+from geodesics import Mesh
 
 Array = NDArray[np.float64]
 
@@ -50,6 +53,16 @@ def per_vertex(values: ArrayLike, count: int) -> Array:
     return v
 
 
+def nearest_known(mesh: Mesh, values: ArrayLike) -> Array:
+    """Values (n,) that are known at some vertices; at all others, which are not finite, those of the nearest of these.
+
+    Nowhere known, they stay as they are.
+    """
+    v = per_vertex(values, mesh.n_vertices)
+    known = np.flatnonzero(np.isfinite(v))
+    return v[known[cKDTree(mesh.vertices[known]).query(mesh.vertices)[1]]] if len(known) else v
+
+
 def value_colours(values: ArrayLike, low: float, high: float) -> Array:
     """Colours (n, 3) from dark blue at `low` to yellow at `high`; grey where a value is not finite."""
     v = np.asarray(values, dtype=np.float64)
@@ -71,6 +84,12 @@ def label_colours(labels: ArrayLike) -> Array:
     colours = palette[numbers.clip(0)]
     colours[numbers < 0] = MISSING
     return colours
+
+
+def css(colours: ArrayLike) -> list[str]:
+    """Colours (n, 3) in [0, 1] as a style sheet names them."""
+    levels = np.rint(255 * np.asarray(colours, dtype=np.float64).clip(0, 1)).astype(np.int64)
+    return [f"#{number:06x}" for number in (levels @ [65536, 256, 1]).tolist()]
 
 
 def _oklab_to_rgb(lab: Array) -> Array:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from enum import Enum
 from typing import Any
 
@@ -87,18 +87,28 @@ class Correspondence:
         object.__setattr__(self, "candidates", tuple(self.candidates))
 
     @classmethod
-    def from_points(cls, source: Mesh, points: SurfacePoints, **fields: Any) -> Correspondence:
+    def from_points(cls, source: Mesh, points: SurfacePoints, **others: Any) -> Correspondence:
         """The map that sends vertex i of `source` to `points[i]`; everything else is optional.
 
         `valid` is True except at vertices on no face, `distortion` is zero.
         """
-        fields.setdefault("valid", np.bincount(source.faces.ravel(), minlength=source.n_vertices) > 0)
-        fields.setdefault("distortion", np.zeros(source.n_vertices))
-        return cls(source=source, target=points.mesh, points=points, **fields)
+        others.setdefault("valid", np.bincount(source.faces.ravel(), minlength=source.n_vertices) > 0)
+        others.setdefault("distortion", np.zeros(source.n_vertices))
+        return cls(source=source, target=points.mesh, points=points, **others)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Unpickled maps are checked and frozen again."""
+        return type(self), tuple(getattr(self, column.name) for column in fields(self))
 
     def __repr__(self) -> str:
         counts = f"{self.source.n_vertices} -> {self.target.n_vertices} vertices, {int(self.valid.sum())} valid"
         return f"Correspondence({counts}, {self.status.name})"
+
+    def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
+        """For notebooks: a small picture and a few figures (see `gmds.notebook`)."""
+        from gmds.notebook import mimebundle
+
+        return mimebundle(self)
 
     def vertex_map(self) -> NDArray[np.int64]:
         """The target vertex nearest to each point, among the corners of its face: (n,) int64."""
@@ -134,6 +144,18 @@ class Correspondence:
         from gmds.algebra import compose
 
         return compose(self, other)
+
+    def report(self, path: str | os.PathLike[str], errors: ArrayLike | None = None, **options: Any) -> None:
+        """Write a page to look at this map in a browser; see `gmds.report.write_report`."""
+        from gmds.report import write_report
+
+        write_report(path, self, errors, **options)
+
+    def picture(self, path: str | os.PathLike[str], errors: ArrayLike | None = None, **options: Any) -> str:
+        """Draw both surfaces, corresponding points in the same colour; see `gmds.pictures.write_picture`."""
+        from gmds.pictures import write_picture
+
+        return write_picture(path, self, errors, **options)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write map.npz, version 1 (see `gmds.map_file`), atomically; candidates are not kept."""

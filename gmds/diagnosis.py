@@ -8,6 +8,7 @@ import importlib.util
 import os
 import platform
 import re
+import stat
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -19,14 +20,17 @@ REQUIRED = (
     "numpy>=1.26",
     "scipy>=1.12",
     "numba>=0.60",
-    "trimesh>=4.4",
+    "trimesh>=4.6",
     "libigl>=2.6.1",
     "threadpoolctl>=3.2",
     "click>=8.2",
     "rich>=13",
 )
 EXTRAS = {
-    "viz": (("matplotlib>=3.8", "plotly>=6"), "pictures; pages and reports need neither it nor a browser here"),
+    "viz": (
+        ("matplotlib>=3.8", "plotly>=6", "pyvista>=0.44"),
+        "pictures; pages and reports need neither it nor a browser here",
+    ),
     "repair": (("pymeshlab>=2023.12",), "closing holes and remeshing in `gmds repair`"),
     "batch": (("distributed>=2024.1",), "`gmds batch`"),
 }
@@ -100,6 +104,9 @@ def _kernels() -> Finding:
     if folder is None or not os.access(folder, os.W_OK):
         advice = "set NUMBA_CACHE_DIR to a folder that can be written, else every process compiles for itself"
         return Finding("compiled kernels", "problem", f"can not be kept in {folder or 'any folder'}", advice)
+    if os.stat(folder).st_mode & stat.S_IWOTH:
+        advice = f"they are code: chmod o-w '{folder}', or set NUMBA_CACHE_DIR to a folder of your own"
+        return Finding("compiled kernels", "problem", f"anyone may write in {folder}", advice)
     kept = sum(name.endswith(".nbi") for name in os.listdir(folder))
     advice = "" if kept else "the first match will compile them; `gmds warmup` does it now"
     return Finding("compiled kernels", "ok", f"{kept} in {folder}", advice)

@@ -125,3 +125,18 @@ class PairTimeout(Exception):
     """A pair took longer than it was allowed to."""
 
     code = "E504"
+
+
+class RenderingError(RuntimeError):
+    """Nothing can be drawn by the renderer that was asked for; the message says why and what to do."""
+
+    code = "E505"
+
+    def __str__(self) -> str:
+        return f"{self.code}: {super().__str__()}"
+
+
+class PictureFormat(FormatError):
+    """A picture in a format that there is none of; the message lists those that there are."""
+
+    code = "E216"

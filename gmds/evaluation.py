@@ -69,6 +69,19 @@ def geodesic_error(
     return np.where(_on_one_face(points, truth), straight, marched) / np.sqrt(target.area)
 
 
+def errors_of_maps(answer: Correspondence, truth: SurfacePoints | ArrayLike, source_indices: ArrayLike) -> Array:
+    """The `geodesic_error` of a map and of each of its candidates, (1 + candidates, n); NaN where no truth is given.
+
+    `truth` and `source_indices` (p,) as there.
+    """
+    maps = [answer.points, *(one.points for one in answer.candidates)]
+    errors = np.full((len(maps), len(answer.points)), np.nan)
+    rows = _checked(source_indices, len(answer.points))
+    for row, points in zip(errors, maps, strict=True):
+        row[rows] = geodesic_error(points, truth, rows)
+    return errors
+
+
 def error_curve(errors: ArrayLike, thresholds: ArrayLike | None = None) -> Array:
     """The share in [0, 1] of errors at most each threshold, (t,); thresholds are 0, 0.01 .. 0.25 unless given."""
     thresholds = np.linspace(0, 0.25, 26) if thresholds is None else np.asarray(thresholds, dtype=np.float64)

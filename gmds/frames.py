@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from geodesics import Mesh
+from geodesics import vertex_normals
 from gmds.correspondence import Correspondence
 from gmds.errors import MapError
 
@@ -42,21 +42,11 @@ def turns(answer: Correspondence) -> Array:
         np.add.at(weight, corner, area)
     total /= np.where(weight > 0, weight, 1)[:, None, None]
     stretch = np.sqrt((total**2).sum(axis=(1, 2)) / 2)
-    here, there = normals(source), answer.points.interpolate(normals(answer.target))
+    here, there = vertex_normals(source), answer.points.interpolate(vertex_normals(answer.target))
     total += np.where(stretch > 0, stretch, 1)[:, None, None] * there[:, :, None] * here[:, None, :]
     total[weight <= 0] = np.eye(3)
     u, _, v = np.linalg.svd(total)
     return np.asarray(u @ v, dtype=np.float64)
-
-
-def normals(mesh: Mesh) -> Array:
-    """Unit normals (n, 3) of vertices, the mean over the faces around them by area; 0 on no face."""
-    a, b = np.swapaxes(_edges(mesh.vertices, mesh.faces), 0, 1)
-    total = np.zeros((mesh.n_vertices, 3))
-    for corner in mesh.faces.T:
-        np.add.at(total, corner, np.cross(a, b))
-    size = np.linalg.norm(total, axis=1, keepdims=True)
-    return np.asarray(total / np.where(size > 0, size, 1), dtype=np.float64)
 
 
 def _edges(vertices: Array, faces: NDArray[np.int64]) -> Array:

@@ -15,7 +15,7 @@ from geodesics.curvature import one_ring_areas
 from geodesics.delaunay import proper_faces
 from geodesics.threads import cached_property
 from geodesics.topology import boundary_vertices
-from gmds._kernels.closest import closest_on_faces
+from gmds._kernels.closest import closest_on_faces, nearest_around
 from gmds.anchors import Anchors
 from gmds.elasticity import Elasticity
 from gmds.surface import Surface
@@ -26,6 +26,7 @@ Index = NDArray[np.int64]
 OUTLINE_FACES = 1600
 NORMAL_WEIGHT = 0.1  # root areas that a right angle between normals is worth, over root 2
 LOOKS = 4  # from vertex to vertex for the closest point
+STEPS = 2  # from vertex to vertex for the closest vertex
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,11 +124,21 @@ class Geometry:
         counts = np.bincount(corners, minlength=self.mesh.n_vertices)
         return np.argsort(corners, kind="stable") // 3, np.concatenate([[0], np.cumsum(counts)])
 
+    @cached_property
+    def _neighbours(self) -> tuple[Index, Index]:
+        """Vertices on a face with each vertex, one after the other, and where those of a vertex start."""
+        together = sp.csr_matrix(self._around @ self._around.T)
+        return together.indices.astype(np.int64), together.indptr.astype(np.int64)
+
     def closest(self, queries: Array, rows: Array, guess: Index) -> SurfacePoints:
         """Points of the surface, embedded by `rows` (n, k), closest to `queries` (p, k), near the vertices `guess`."""
         q, r = np.ascontiguousarray(queries), np.ascontiguousarray(rows)
         face, weight, _ = closest_on_faces(q, r, self.mesh.faces, *self._rings, guess, LOOKS)
         return SurfacePoints(self.mesh, face, weight)
+
+    def nearest(self, queries: Array, rows: Array, guess: Index) -> Index:
+        """Vertices, embedded by `rows` (n, k), closest to `queries` (p, k), near the vertices `guess` (p,)."""
+        return nearest_around(queries.astype(np.float32), rows.astype(np.float32), *self._neighbours, guess, STEPS)
 
     def carried(self, y: Array, points: Array) -> Array:
         """Where points (p, 3) on the surface go when its vertices go to y (n, 3)."""

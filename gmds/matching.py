@@ -12,7 +12,7 @@ from geodesics import Distance, Mesh
 from geodesics.threads import on_one_blas_thread, side_by_side
 from gmds import initialization
 from gmds._validation import check_sample_count, suggest_keywords
-from gmds.answer import answer
+from gmds.answer import answer, contenders
 from gmds.candidates import Embedded, embed, finished, mirrored
 from gmds.coarsening import Carrier
 from gmds.correspondence import Correspondence
@@ -85,7 +85,9 @@ def match(  # noqa: PLR0913 - the signature is a promise
     placed.sort(key=lambda e: e.evidence.loss)
     report("refining", 0.7)
     if distance is None:
-        placed[0] = finished(placed[0], lambda share: report("refining", 0.7 + 0.3 * share))
+        rivals, tell = contenders(placed), lambda share: report("refining", 0.7 + 0.3 * share)
+        done = side_by_side(lambda e: finished(e, tell if e is rivals[0] else None), rivals)
+        placed = sorted(done, key=lambda e: e.evidence.loss) + [e for e in placed if e not in rivals]
     other = mirrored(placed[0])
     placed += [] if other is None else [other]
 

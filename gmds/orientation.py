@@ -58,5 +58,6 @@ def pulled_back_forms(forms: Array, matrix: Array) -> Array:
     """Forms (p, 10) of the target's functions as those of the source's, by the functional map C (k, k), k > 5."""
     inner = matrix[1 : FUNCTIONS + 1, 1 : FUNCTIONS + 1]
     i, j = _PAIRS.T
-    minors = inner[np.ix_(i, i)] * inner[np.ix_(j, j)] - inner[np.ix_(i, j)] * inner[np.ix_(j, i)]
+    ours, theirs = inner[i], inner[j]
+    minors = ours[:, i] * theirs[:, j] - ours[:, j] * theirs[:, i]
     return forms @ minors.T

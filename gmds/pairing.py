@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from geodesics import SurfacePoints
-from geodesics.threads import side_by_side, threads
-from gmds._kernels.closest import nearest_candidates
 from gmds.geometry import Geometry
 from gmds.surface import View
 
@@ -19,55 +17,56 @@ Index = NDArray[np.int64]
 Single = NDArray[np.float32]
 
 SPECTRAL_WEIGHT = 0.15  # root areas that root mean square eigenfunctions, all taken together, are worth
-CANDIDATES = 10  # closest vertices in position and normal among which eigenfunctions decide
-MANY = 2000  # vertices for which threads pay
 
 
 @dataclass(frozen=True, eq=False)
 class Pairing:
     """Closest points of a deformed source and a target, both ways: of every source vertex, of every usable target one.
 
+    `points` (n,) of the target, with the vertices `near` (n,) them; vertices `back` (q,) of the source.
     `weight` (n,), `weight_back` (q,): areas, or 0 where the closest point is on a boundary: what it should be paired
     with may be missing.
     """
 
     points: SurfacePoints
+    near: Index
     back: Index
     weight: Array
     weight_back: Array
 
     @classmethod
     def of(
-        cls, source: Geometry, target: Geometry, y: Array, partial: bool, views: tuple[View, View] | None = None
+        cls,
+        source: Geometry,
+        target: Geometry,
+        y: Array,
+        partial: bool,
+        views: tuple[View, View] | None = None,
+        before: Pairing | None = None,
     ) -> Pairing:
-        """The pairing with the source at y (n, 3).
+        """The pairing with the source at y (n, 3); after a small move, near the one `before` it.
 
         With `views`, of the undeformed surfaces, their eigenfunctions count as well: those of the source, as the
         functional map of the closest points carries them over, beside those of the target (as in ZoomOut: Melzi et al.
         2019). They keep round limbs from turning about their axis, where position and normal say nothing.
         """
         ours, theirs = source.moved_features(y), target.features
-        workers = threads() if len(ours) >= MANY else 1
-        if views is None:
-            near = target.usable[target.tree.query(ours, workers=workers)[1]]
-            back = source.usable[cKDTree(ours[source.usable]).query(theirs[target.usable], workers=workers)[1]]
+        if before is None:
+            near = target.usable[target.tree.query(ours)[1]]
+            back = source.usable[cKDTree(ours[source.usable]).query(theirs[target.usable])[1]]
         else:
-            few = min(CANDIDATES, len(source.usable), len(target.usable))
-            ahead = target.usable[target.tree.query(ours, k=few, workers=workers)[1]].reshape(-1, few)
-            behind = source.usable[
-                cKDTree(ours[source.usable]).query(theirs[target.usable], k=few, workers=workers)[1]
-            ].reshape(-1, few)
-            here, there = _spectral_rows(source, views, ahead[:, 0])
+            near = target.nearest(ours, theirs, before.near)
+            back = source.nearest(theirs[target.usable], ours, before.back)
+        if views is not None:
+            here, there = _spectral_rows(source, views, near)
             ours, theirs = np.hstack([ours, here]), np.hstack([theirs, there])
-            q, r = ours.astype(np.float32), theirs.astype(np.float32)
-            searches = ((q, r, ahead), (r[target.usable], q, behind))
-            near, back = side_by_side(lambda one: nearest_candidates(*one), searches)
+            near, back = target.nearest(ours, theirs, near), source.nearest(theirs[target.usable], ours, back)
         points = target.closest(ours, theirs, near)
         weight, weight_back = source.areas, target.areas[target.usable]
         if partial:
             weight = np.where(target.on_boundary(points), 0.0, weight)
             weight_back = np.where(source.boundary[back], 0.0, weight_back)
-        return cls(points, back, weight, weight_back)
+        return cls(points, near, back, weight, weight_back)
 
     def springs(self, source: Geometry, target: Geometry) -> tuple[Array, Array]:
         """Weights (n,) and ends (n, 3) of the springs that pull on vertices: to the target, and those from it."""

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from geodesics.euclidean import euclidean_distances
 from geodesics.threads import side_by_side
 from gmds.geometry import Geometry
 from gmds.hypotheses import hypotheses
@@ -24,6 +25,7 @@ Start = Callable[[SampledPair], list[Index]]
 PROPOSED = 16  # maps that each metric proposes
 LEAST_KEPT = 8  # of them all, at the least, are registered to the end
 RETURNED = 12  # of these, the most likely, are registered the way back as well
+ALIKE = 0.03  # root mean square gap, in root areas, below which maps that have only begun lead to the same
 APART = 0.05  # root mean square gap, in root areas, below which two maps are one
 
 
@@ -78,7 +80,7 @@ def proposals(
     places = [target.mesh.vertices[images] for images in rough_maps(pair, views, starts)]
     first, second, third = (_part(progress, *shares) for shares in ((0.6, 0.75), (0.75, 0.9), (0.9, 1.0)))
     begun = side_by_side(lambda place: register(source, target, place, BEGIN, growing=False), places, first)
-    likely = _cheapest(begun)[: max(LEAST_KEPT, len(places) // 3)]
+    likely = _told_apart(_cheapest(begun)[: max(LEAST_KEPT, len(places) // 3)], source)
     there = side_by_side(lambda found: settled(source, target, found.y, COARSE, growing=False), likely, second)
     return side_by_side(functools.partial(Proposal.completed, pair), _cheapest(there)[:RETURNED], third)
 
@@ -91,6 +93,17 @@ def _part(progress: Callable[[float], None] | None, start: float, end: float) ->
 def _cheapest(found: Sequence[Registered]) -> list[Registered]:
     """Those that need the least deformation first."""
     return sorted(found, key=lambda one: one.residuals.loss)
+
+
+def _told_apart(found: Sequence[Registered], source: Geometry) -> list[Registered]:
+    """Those that no one before them nearly repeats."""
+    rows = np.stack([(np.sqrt(source.areas)[:, None] * one.y).ravel() for one in found])
+    gaps = euclidean_distances(rows, rows)
+    kept: list[int] = []
+    for i in range(len(found)):
+        if (gaps[i, kept] > ALIKE).all():
+            kept.append(i)
+    return [found[i] for i in kept]
 
 
 def rough_maps(pair: SurfacePair, views: Sequence[tuple[View, View]], starts: Sequence[Start]) -> list[Index]:

@@ -21,7 +21,7 @@ Index = NDArray[np.int64]
 BEGIN: Sequence[tuple[float, int]] = ((3e-2, 6),)
 COARSE: Sequence[tuple[float, int]] = ((1e-2, 4), (3e-3, 4))
 FINE: Sequence[tuple[float, int]] = ((1e-3, 4), (5e-4, 4))
-REFINE: Sequence[tuple[float, int]] = ((3e-3, 4), (1e-3, 4), (5e-4, 4))  # of a map that is good already
+REFINE: Sequence[tuple[float, int]] = ((3e-3, 4), *FINE)  # of a map that is good already
 SETTLE: Sequence[tuple[float, int]] = ((1e-3, 5), (5e-4, 4))
 BACK: Sequence[tuple[float, int]] = ((3e-3, 4), (3e-3, 3), (1e-3, 3))
 AGAIN: Sequence[tuple[float, int]] = ((1e-3, 3), (1e-3, 3), (5e-4, 3))
@@ -126,8 +126,10 @@ def settled(
     """
     elasticity = source.elasticity
     for stiff, steps in stages:
+        pairing = None
         for _ in range(steps):
-            weights, goals = Pairing.of(source, target, y, partial, views).springs(source, target)
+            pairing = Pairing.of(source, target, y, partial, views, pairing)
+            weights, goals = pairing.springs(source, target)
             turns = elasticity.turns(y, growing)
             if source.anchors is not None:
                 energy = float(elasticity.energy(y, turns).sum())

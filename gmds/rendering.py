@@ -1,6 +1,10 @@
-"""A small picture maker: triangles with vertex colours into an array of pixels, by a depth buffer."""
+"""A small picture maker: triangles with vertex colours into arrays of pixels, by a depth buffer."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,6 +12,8 @@ from numpy.typing import NDArray
 from geodesics import Mesh, vertex_normals
 
 Array = NDArray[np.float64]
+
+OVERSAMPLING = 2  # pixels across for each that is kept
 
 
 def view_rotation(azimuth: float, elevation: float) -> Array:
@@ -18,26 +24,78 @@ def view_rotation(azimuth: float, elevation: float) -> Array:
     return np.stack([right, np.cross(towards, right), towards])
 
 
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """Where vertices are in an image of `width` x `height` pixels: xy (n, 2) from its upper left corner, depth (n,).
+
+    Depth grows towards the viewer, and is in pixels as well.
+    """
+
+    xy: Array
+    depth: Array
+    width: int
+    height: int
+
+
+@dataclass(frozen=True, eq=False)
+class Shot:
+    """A mesh with vertex colours (n, 3) to be drawn as seen along a camera rotation, `pixels` its longer side.
+
+    `sharp` gives each place the colour of the nearest corner instead of a blend.
+    """
+
+    mesh: Mesh
+    colours: Array
+    rotation: Array
+    pixels: int = 600
+    sharp: bool = False
+
+    def frame(self, oversampling: int) -> Frame:
+        """The image with so many times the pixels across: parallel projection, a margin of 3 % around the faces."""
+        used = np.unique(self.mesh.faces)
+        camera = self.mesh.vertices @ self.rotation.T
+        low, high = camera[used].min(axis=0), camera[used].max(axis=0)
+        fine = self.pixels * oversampling
+        scale = 0.94 * fine / (high - low)[:2].max()
+        size = (np.ceil((high - low)[:2] * scale / oversampling) * oversampling + 0.06 * fine).astype(int)
+        width, height = (size - size % oversampling).tolist()
+        center = (low + high) / 2
+        xy = (camera[:, :2] - center[:2]) * scale * [1, -1] + [width / 2, height / 2]
+        return Frame(xy, (camera[:, 2] - center[2]) * scale, width, height)
+
+    @cached_property
+    def normals(self) -> Array:
+        """Unit normals (n, 3) of the vertices as the camera sees them."""
+        return np.asarray(vertex_normals(self.mesh) @ self.rotation.T, dtype=np.float64)
+
+
+def software(shots: Sequence[Shot]) -> list[Array]:
+    """Images (height, width, 3) in [0, 1] on white of the shots, by a depth buffer of our own, on any machine.
+
+    One light at the viewer's shoulder, faces lit from both sides.
+    """
+    return [_drawn(shot, OVERSAMPLING) for shot in shots]
+
+
+def _drawn(shot: Shot, oversampling: int) -> Array:
+    frame, faces = shot.frame(oversampling), shot.mesh.faces
+    pixel, face, weights = _visible(frame.xy, frame.depth, faces, frame.width, frame.height)
+    image = np.ones((frame.height * frame.width, 3))
+    image[pixel] = _shade(faces[face], weights, shot.colours, shot.normals, shot.sharp)
+    return averaged(image.reshape(frame.height, frame.width, 3), oversampling)
+
+
 def render(
     mesh: Mesh, colours: Array, *, rotation: Array, pixels: int = 600, oversampling: int = 2, sharp: bool = False
 ) -> Array:
-    """An image (height, width, 3) in [0, 1] on white of the mesh with vertex colours (n, 3), seen along `rotation`.
+    """One image (height, width, 3) in [0, 1] by `software`, of what `Shot` says."""
+    return _drawn(Shot(mesh, colours, rotation, pixels, sharp), oversampling)
 
-    Parallel projection, one light at the viewer's shoulder, faces lit from both sides; `pixels` is the longer side.
-    `sharp` gives each pixel the colour of the nearest corner instead of a blend.
-    """
-    camera = mesh.vertices @ rotation.T
-    low, high = camera[:, :2].min(0), camera[:, :2].max(0)
-    fine = pixels * oversampling
-    scale = 0.94 * fine / (high - low).max()
-    width, height = (np.ceil((high - low) * scale / oversampling) * oversampling + 0.06 * fine).astype(int)
-    width, height = width - width % oversampling, height - height % oversampling
-    xy = (camera[:, :2] - (low + high) / 2) * scale * [1, -1] + [width / 2, height / 2]
-    pixel, face, weights = _visible(xy, camera[:, 2], mesh.faces, int(width), int(height))
-    normals = vertex_normals(mesh) @ rotation.T
-    image = np.ones((height * width, 3))
-    image[pixel] = _shade(mesh.faces[face], weights, colours, normals, sharp)
-    return image.reshape(height // oversampling, oversampling, width // oversampling, oversampling, 3).mean(axis=(1, 3))
+
+def averaged(image: Array, block: int) -> Array:
+    """An image with every block of pixels made one."""
+    height, width = image.shape[0] // block, image.shape[1] // block
+    return image.reshape(height, block, width, block, 3).mean(axis=(1, 3))
 
 
 def _visible(xy: Array, depth: Array, faces: NDArray[np.int64], width: int, height: int) -> tuple[NDArray, ...]:

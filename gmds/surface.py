@@ -24,7 +24,7 @@ Index = NDArray[np.int64]
 
 FEWEST_VERTICES = 12  # below this there are not enough eigenfunctions to start from
 EIGENFUNCTIONS = 100
-DETAIL_FUNCTIONS = 150  # for the last registration
+ROUGH_FUNCTIONS = 60  # in the metrics that only rough maps are made in
 ENOUGH_EIGENFUNCTIONS = 30
 SMOOTHING = 2e-2  # of the curvature: the starts want its large features, not its details
 DETAIL = 1e-3  # smoothing of the mean curvature that tells the chest from the back
@@ -112,8 +112,8 @@ class Surface:
     face_index: Index
 
     def view(self, metric: Callable[[Mesh], Metric]) -> View:
-        """The surface in a metric."""
-        return View.of(eigenpairs(metric(self.mesh), self.count))
+        """The surface in a metric in which rough maps are made."""
+        return View.of(eigenpairs(metric(self.mesh), min(ROUGH_FUNCTIONS, self._most)))
 
     @cached_property
     def views(self) -> tuple[View, ...]:
@@ -124,16 +124,11 @@ class Surface:
     @cached_property
     def regular(self) -> View:
         """The surface in the metric of space."""
-        return self.detail.first(self.count)
-
-    @cached_property
-    def detail(self) -> View:
-        """The same with more eigenfunctions."""
-        return View.of(eigenpairs(embedded(self.mesh), min(DETAIL_FUNCTIONS, self._most)))
+        return View.of(eigenpairs(embedded(self.mesh), self.count))
 
     @cached_property
     def count(self) -> int:
-        """Number of eigenfunctions in each view."""
+        """Number of eigenfunctions in the metric of space."""
         return min(EIGENFUNCTIONS, self._most)
 
     @cached_property

@@ -1,7 +1,7 @@
 """A measured surface on disk: everything about it that takes long to compute, readable with numpy alone.
 
 Members: `original_*`, `mesh_*`: vertices and faces of the mesh, and of its largest part turned and resized;
-`face_index`; for each view (`view0`, `view1`, `detail`) its mass, eigenvalues, eigenfunctions and cells of farthest
+`face_index`; for each view (`view0`, `view1`, `view2`) its mass, eigenvalues, eigenfunctions and cells of farthest
 points; `curvature`; `outline_*`: vertices, faces and origin, unless the outline is the whole; `reversing`, if there is
 such a self-map. Numbers keep all their bits: surfaces from files are matched as the meshes are.
 """
@@ -27,7 +27,7 @@ from gmds.refinement import CARRIERS, GOALS
 from gmds.surface import Surface, View
 from gmds.upsampling import TARGET_SAMPLES
 
-VERSION = 1
+VERSION = 2
 
 Arrays = dict[str, NDArray[Any]]
 
@@ -53,13 +53,11 @@ def _arrays(surface: Surface) -> Arrays:
     found: Arrays = {"version": np.array(VERSION), "face_index": surface.face_index}
     for name, mesh in (("original", surface.original), ("mesh", surface.mesh)):
         found |= {f"{name}_vertices": mesh.vertices, f"{name}_faces": mesh.faces}
-    *others, regular = surface.views
-    for number, view in enumerate(others):
+    surface.regular.samples(GOALS)
+    surface.regular.cells(CARRIERS)
+    for number, view in enumerate(surface.views):
         view.samples(TARGET_SAMPLES)
         found |= _view_arrays(f"view{number}", view)
-    regular.samples(GOALS)
-    regular.cells(CARRIERS)
-    found |= _view_arrays("detail", View(surface.mesh, surface.detail.spectrum), regular.sampled)
     found["curvature"] = surface.squashed_curvature
     few = outline(surface)
     if few.mesh is not surface.mesh:
@@ -68,10 +66,10 @@ def _arrays(surface: Surface) -> Arrays:
     return found if turned is None else found | {"reversing": turned}
 
 
-def _view_arrays(name: str, view: View, sampled: dict[int, Cells] | None = None) -> Arrays:
+def _view_arrays(name: str, view: View) -> Arrays:
     spectrum = view.spectrum
     found = {"mass": spectrum.mass, "values": spectrum.eigenvalues, "functions": spectrum.eigenfunctions}
-    for count, cells in (view.sampled if sampled is None else sampled).items():
+    for count, cells in view.sampled.items():
         found |= {f"{part}_{count}": array for part, array in cells._asdict().items()}
     return {f"{name}_{part}": array for part, array in found.items()}
 
@@ -81,11 +79,8 @@ def _surface(arrays: Arrays) -> Surface:
         raise ValueError(f"version {arrays['version']}, not {VERSION}")
     original, mesh = (Mesh(arrays[f"{name}_vertices"], arrays[f"{name}_faces"]) for name in ("original", "mesh"))
     surface = Surface(original, mesh, arrays["face_index"])
-    others = [_view(arrays, f"view{i}", mesh) for i in range(sum(f"view{i}_mass" in arrays for i in range(9)))]
-    detail = _view(arrays, "detail", mesh)
-    vars(surface)["detail"] = View(mesh, detail.spectrum)
-    surface.regular.sampled.update(detail.sampled)
-    vars(surface)["views"] = (*others, surface.regular)
+    views = tuple(_view(arrays, f"view{i}", mesh) for i in range(sum(f"view{i}_mass" in arrays for i in range(9))))
+    vars(surface)["views"], vars(surface)["regular"] = views, views[-1]
     vars(surface)["squashed_curvature"] = arrays["curvature"]
     surface.derived["outline"] = _outline(arrays, surface)
     surface.derived["reversing"] = arrays.get("reversing")

@@ -105,10 +105,16 @@ class SampledPair:
         rows = self.source.embedding[self.source_samples[:JUDGED], :FUNCTIONS]
         return euclidean_distances(rows, rows)
 
+    @cached_property
+    def _target_distances(self) -> Array:
+        """The same between all target samples."""
+        rows = self.target.embedding[self.target_samples, :FUNCTIONS]
+        return euclidean_distances(rows, rows)
+
     def stress(self, images: Index) -> float:
         """Mean |d_S - d_Q| between the first samples over mean d_S, in commute-time distance."""
-        rows = self.target.embedding[self.target_samples[images[:JUDGED]], :FUNCTIONS]
-        there = euclidean_distances(rows, rows)
+        first = images[:JUDGED]
+        there = self._target_distances[first][:, first]
         return float(np.abs(self.source_distances - there).mean() / self.source_distances.mean())
 
     def gap(self, images: Index, others: Index) -> float:

@@ -17,7 +17,7 @@ import gmds
 ROOT = Path(__file__).parents[1]
 PACKAGES = [Path(package.__file__ or "").parent for package in (geodesics, gmds)]
 MODULES = sorted(path for package in PACKAGES for path in package.rglob("*.py"))
-HEAVY = {"igl", "trimesh", "pymeshlab", "plotly", "matplotlib", "distributed", "rich"}
+HEAVY = {"igl", "trimesh", "pymeshlab", "plotly", "matplotlib", "pyvista", "vtk", "distributed", "rich"}
 
 
 def dotted(path: Path) -> str:

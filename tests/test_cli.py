@@ -266,7 +266,11 @@ def test_check_tells_what_is_wrong(tmp_path: Path) -> None:
     assert "W201" in result.stdout and "W215" in result.stdout
     said = json.loads(run("check", tmp_path / "m.off", "--json").stdout)
     assert (said["vertices"], said["faces"]) == (5, 2)
-    assert {"W201", "W215"} <= {note["code"] for note in said["notes"]}
+    found = {note["code"]: (note["count"], note["indices"], note["repair"]) for note in said["notes"]}
+    assert found["W201"] == (1, [1], "yes")
+    assert found["W215"] == (2, [3, 4], "yes") and found["W218"][2] is None
+    lines = [line.split() for line in result.stdout.splitlines()]
+    assert ["W201", "warning", "1", "yes", "1", "faces", "repeat", "an", "earlier", "face", "1"] in lines
 
 
 def test_repair_drops_what_is_wrong_and_says_where_the_rest_was(tmp_path: Path) -> None:
@@ -279,6 +283,7 @@ def test_repair_drops_what_is_wrong_and_says_where_the_rest_was(tmp_path: Path) 
     maps = arrays(tmp_path / "maps.npz")
     assert maps["vertex"].tolist() == [1, 2, 3, 4]
     assert maps["face"].tolist() == [0, 2]
+    assert maps["new_vertex"].tolist() == [-1, 0, 1, 2, 3] and maps["new_face"].tolist() == [0, -1, 1]
 
 
 def test_repair_reduces(tmp_path: Path) -> None:

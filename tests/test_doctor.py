@@ -118,3 +118,15 @@ assert seen > 5
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=ROOT)
     assert (done.returncode, done.stdout) == (0, ""), done.stdout + done.stderr
+
+
+def test_a_folder_that_anyone_can_write_is_told(
+    quick: dict[str, str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    tmp_path.chmod(0o777)
+    monkeypatch.setattr("geodesics.compiling.cache_folder", lambda: str(tmp_path))
+    code, found, problems = doctor()
+    assert (code, problems) == (1, ["compiled kernels"])
+    assert "chmod o-w" in found["compiled kernels"]["advice"]
+    tmp_path.chmod(0o755)
+    assert doctor()[0] == 0

@@ -198,7 +198,7 @@ def test_an_unknown_ending_is_named_before_anything_is_read(tmp_path: Path, name
     start = ["--from", 0] if name == "distances" else []
     told = refused(name, tmp_path / "nothing.off", *start, "-o", "out.mat", code=2)
     assert "'out.mat' must end in .npz or .csv" in told
-    assert "'p.jpg' must end in .png" in refused(name, "x.off", *start, "-o", "o.npz", "--picture", "p.jpg", code=2)
+    assert "'p.tif' must end in .png" in refused(name, "x.off", *start, "-o", "o.npz", "--picture", "p.tif", code=2)
     assert "nothing.off" in refused(name, tmp_path / "nothing.off", *start, "-o", tmp_path / "out.npz")
 
 

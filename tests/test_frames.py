@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from shapes import bumpy_sphere, with_isolated
 
-from geodesics import Mesh, SurfacePoints
+from geodesics import Mesh, SurfacePoints, vertex_normals
 from gmds import Correspondence
 from gmds.deformations import bending
 from gmds.errors import MapError
-from gmds.frames import carry_vectors, normals, turns
+from gmds.frames import carry_vectors, turns
 from gmds.shapes import quadruped
 
 MESH = bumpy_sphere(3)
@@ -36,7 +36,7 @@ def test_a_congruence_turns_every_vector_alike(sign: float, scale: float) -> Non
 def test_normals_stay_normals_and_tangents_tangent_when_the_surface_bends() -> None:
     source = quadruped(n_vertices=1500)
     answer = to(bending(source, 60.0)[0], source)
-    here, there = normals(source), normals(answer.target)
+    here, there = vertex_normals(source), vertex_normals(answer.target)
     assert np.linalg.norm(carry_vectors(answer, there) - here, axis=1).mean() < 0.02
     tangent = np.cross(there, RNG.standard_normal(there.shape))
     carried = carry_vectors(answer, tangent)

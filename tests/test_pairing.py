@@ -18,7 +18,7 @@ def surface() -> Surface:
 
 def test_a_surface_on_itself_is_paired_with_itself(surface: Surface) -> None:
     geometry = Geometry.of(surface)
-    for views in (None, (surface.detail, surface.detail)):
+    for views in (None, (surface.regular, surface.regular)):
         found = Pairing.of(geometry, geometry, geometry.mesh.vertices, False, views)
         assert np.abs(found.points.positions - geometry.mesh.vertices).max() < 1e-6
         assert np.array_equal(found.back, np.arange(len(found.back)))
@@ -33,7 +33,7 @@ def test_eigenfunctions_see_through_noise(surface: Surface) -> None:
         found = Pairing.of(geometry, geometry, y, False, views)
         return float(np.linalg.norm(found.points.positions - truth, axis=1).mean())
 
-    assert error((surface.detail, surface.detail)) < 0.7 * error(None)
+    assert error((surface.regular, surface.regular)) < 0.7 * error(None)
 
 
 def test_springs_weigh_each_surface_once(surface: Surface) -> None:

@@ -4,15 +4,23 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from odd_shapes import Odd, bow_tie, fin
+from rare_shapes import strip
 from shapes import bumpy_sphere, icosphere, joined, rectangle, torus, with_isolated
 
-from geodesics import Mesh, MeshError
+from geodesics import Mesh, MeshError, _meshlab
 from geodesics.check import check
+from geodesics.edges import face_components
 from geodesics.errors import MissingExtra
-from geodesics.repair import decimate, fill_holes, remesh, repair
+from geodesics.repair import Repaired, decimate, fill_holes, remesh, repair
+from geodesics.splitting import split
 
 
 def area(mesh: Mesh) -> float:
@@ -39,7 +47,7 @@ def broken(mesh: Mesh) -> Mesh:
 
 def test_repair_removes_what_was_added_and_nothing_else() -> None:
     clean = icosphere(1)
-    fixed, vertex, face, notes = repair(broken(clean))
+    fixed, vertex, face, notes, *_ = repair(broken(clean))
     assert np.array_equal(fixed.vertices, clean.vertices) and np.array_equal(fixed.faces, clean.faces)
     assert {note.code for note in notes} == {"W201", "W202", "W204", "W215"}
     assert {note.code: len(note.indices) for note in notes} == {"W201": 1, "W202": 2, "W204": 2, "W215": 3}
@@ -49,10 +57,72 @@ def test_repair_removes_what_was_added_and_nothing_else() -> None:
 
 def test_repair_of_a_clean_mesh_changes_nothing() -> None:
     for mesh in (icosphere(1), torus(), rectangle(3, 4)):
-        fixed, vertex, face, notes = repair(mesh)
+        fixed, vertex, face, notes, *_ = repair(mesh)
         assert np.array_equal(fixed.vertices, mesh.vertices) and np.array_equal(fixed.faces, mesh.faces)
         assert np.array_equal(vertex, np.arange(mesh.n_vertices)) and np.array_equal(face, np.arange(mesh.n_faces))
         assert notes == []
+
+
+def round_trip(old: Mesh, result: Repaired) -> None:
+    """The maps both ways say the same, and name the same positions and faces."""
+    assert np.array_equal(result.mesh.vertices, old.vertices[result.vertex])
+    assert np.array_equal(np.sort(result.vertex[result.mesh.faces]), np.sort(old.faces[result.face]))
+    assert np.array_equal(result.new_face[result.face], np.arange(result.mesh.n_faces))
+    there = result.new_vertex >= 0
+    assert np.array_equal(result.mesh.vertices[result.new_vertex[there]], old.vertices[there])
+    gone = np.setdiff1d(np.arange(old.n_vertices), result.vertex)
+    assert (result.new_vertex[gone] == -1).all() and (result.new_face >= 0).sum() == result.mesh.n_faces
+
+
+def test_the_way_there_and_back() -> None:
+    for old in (broken(icosphere(1)), joined(icosphere(1), torus()), fin().mesh, bow_tie().mesh):
+        for cut in (False, True):
+            for largest in (False, True):
+                round_trip(old, repair(old, cut=cut, largest=largest))
+
+
+def test_a_welded_vertex_became_the_one_it_was_welded_to() -> None:
+    mesh = icosphere(1)
+    soup = Mesh(mesh.vertices[mesh.faces].reshape(-1, 3), np.arange(3 * mesh.n_faces).reshape(-1, 3))
+    result = repair(soup, weld=True)
+    assert np.array_equal(result.mesh.vertices[result.new_vertex], soup.vertices)
+    assert np.array_equal(result.mesh.faces, result.new_vertex[soup.faces])
+
+
+def test_what_was_asked_for_is_told_and_counted() -> None:
+    result = repair(joined(bow_tie().mesh, icosphere(0)), cut=True, largest=True)
+    assert {note.code: note.count for note in result.notes} == {"W213": 1, "W216": 340}
+    assert all(note.message.startswith(f"{note.count} ") for note in result.notes)
+
+
+@pytest.mark.parametrize("make", [fin, bow_tie])
+def test_a_mesh_is_cut_where_it_is_no_surface_and_nowhere_else(make: Callable[[], Odd]) -> None:
+    mesh = make().mesh
+    apart, vertex = split(mesh)
+    assert apart.n_vertices == mesh.n_vertices + (2 if make is fin else 1)
+    assert np.array_equal(apart.vertices, mesh.vertices[vertex])
+    assert np.array_equal(vertex[apart.faces], mesh.faces)
+    assert np.array_equal(vertex[: mesh.n_vertices], np.arange(mesh.n_vertices))
+    assert not warnings(apart) & {"W213", "W214"}
+    sizes = np.bincount(face_components(apart))
+    assert sorted(sizes) == ([1, 320] if make is fin else [320, 320])
+
+
+def test_sound_meshes_are_not_cut() -> None:
+    for mesh in (icosphere(1), torus(), rectangle(4, 4), strip(), joined(icosphere(0), icosphere(0))):
+        assert split(mesh)[0] is mesh
+
+
+@settings(max_examples=150, deadline=None)
+@given(seed=st.integers(0, 2**31), n=st.integers(4, 9), m=st.integers(2, 30))
+def test_any_soup_of_triangles_is_cut_into_surfaces(seed: int, n: int, m: int) -> None:
+    rng = np.random.default_rng(seed)
+    soup = repair(Mesh(rng.standard_normal((n, 3)), [rng.choice(n, 3, replace=False) for _ in range(m)]))
+    apart, vertex = split(soup.mesh)
+    assert not warnings(apart) & {"W213", "W214"}
+    assert np.array_equal(vertex[apart.faces], soup.mesh.faces)
+    again = repair(apart, cut=True)
+    assert np.array_equal(again.vertex, np.arange(apart.n_vertices))
 
 
 def test_welding_joins_equal_positions_when_asked() -> None:
@@ -115,6 +185,27 @@ def test_filling_holes_closes_the_surface_and_keeps_what_is_there() -> None:
     assert "W217" in {note.code for note in check(holes)}
     assert "W217" not in {note.code for note in check(closed)} and not warnings(closed) - {"W216"}
     assert fill_holes(icosphere(1)).n_faces == 80
+
+
+FAULTS = {
+    "crash": ("import os, signal\nos.kill(os.getpid(), signal.SIGSEGV)", "ended by signal 11"),
+    "exit": ("import os\nos._exit(0)", "it stopped"),
+    "error": ("raise SystemExit('no such thing')", "no such thing"),
+    "hang": ("import time\ntime.sleep(60)", "given up after"),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_a_crash_of_pymeshlab_is_an_error_that_says_so(
+    fault: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "pymeshlab.py").write_text(FAULTS[fault][0])
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setattr(_meshlab, "SECONDS", 2 if fault == "hang" else 60)
+    for run in (lambda: remesh(icosphere(1), 50), lambda: fill_holes(rectangle(3, 3))):
+        with pytest.raises(MeshError, match=FAULTS[fault][1]):
+            run()
 
 
 def test_a_missing_extra_is_named() -> None:

@@ -1,265 +1,189 @@
-"""The page and the pictures: corresponding points look alike, and nothing in a name is ever run."""
+"""The page on a map: it holds what the map says, is small, and nothing in a name is ever run."""
 
 from __future__ import annotations
 
 import base64
 import hashlib
-import json
 import re
-import shutil
-import subprocess
-from html.parser import HTMLParser
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from shapes import ellipsoid, icosphere, moved, rectangle, tetrahedron
+from pages import HOSTILE, elements, page_data, unpacked
+from shapes import rectangle, tetrahedron
 
 from geodesics import Mesh, SurfacePoints
-from gmds import Correspondence
-from gmds.colours import label_colours, position_colours, value_colours
+from gmds import Correspondence, MatchStatus
 from gmds.correspondence import Candidate
-from gmds.pictures import write_picture, write_values
-from gmds.rendering import render, view_rotation
+from gmds.map_file import fingerprint
+from gmds.page.drawing import DRAWN, MOST, clustered, drawing
 from gmds.report import write_report
 from gmds.shapes import quadruped, truth
-from gmds.views import alignment, broadside
-
-HOSTILE = '</script><script>document.title="owned"</script><img src=x onerror=\'document.title="owned"\'>'
-
-
-class Elements(HTMLParser):
-    """Every tag with its attributes, and the text inside each script."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.tags: list[str] = []
-        self.attributes: list[str] = []
-        self.scripts: list[tuple[dict, str]] = []
-        self.policy = ""
-
-    def handle_starttag(self, tag: str, attrs: list) -> None:
-        self.tags.append(tag)
-        self.attributes += [name for name, _ in attrs]
-        if tag == "script":
-            self.scripts.append((dict(attrs), ""))
-        if tag == "meta" and dict(attrs).get("http-equiv") == "Content-Security-Policy":
-            self.policy = dict(attrs)["content"]
-
-    def handle_data(self, data: str) -> None:
-        if self.lasttag == "script" and self.scripts:
-            attrs, text = self.scripts[-1]
-            self.scripts[-1] = (attrs, text + data)
-
-
-def read(path: Path) -> tuple[Elements, dict]:
-    page = Elements()
-    page.feed(path.read_text(encoding="utf-8"))
-    data = next(text for attrs, text in page.scripts if attrs.get("type") == "application/json")
-    return page, json.loads(data[: data.rindex("}") + 1])
 
 
 @pytest.fixture(scope="module")
 def answer() -> Correspondence:
     source, target = quadruped(n_vertices=500), quadruped("walk", head_scale=2, n_vertices=600, seed=1)
     mirrored = Candidate(truth(source, target, mirrored=True), 0.2, -0.8)
-    valid = np.arange(500) % 50 > 0
-    distortion = np.linspace(0, 0.3, 500)
     return Correspondence.from_points(
         source,
         truth(source, target),
-        valid=valid,
-        distortion=distortion,
+        valid=np.arange(500) % 50 > 0,
+        distortion=np.linspace(0, 0.3, 500),
         candidates=(mirrored,),
-        meta={"seed": HOSTILE},
+        meta={"parameters": {"seed": HOSTILE}, "versions": {"gmds": "0.1"}},
     )
 
 
-def test_the_page_holds_both_surfaces_and_every_view(answer: Correspondence, tmp_path: Path) -> None:
+def test_the_page_holds_both_surfaces_and_every_map(answer: Correspondence, tmp_path: Path) -> None:
+    write_report(tmp_path / "r.html", answer, errors=np.full(500, 0.07), names=("a.off", "b.off"))
+    data = page_data(tmp_path / "r.html")
+    for shown, mesh, name in zip(data["surfaces"], (answer.source, answer.target), ("a.off", "b.off"), strict=True):
+        assert shown["name"] == name
+        assert np.array_equal(np.sort(shown["faces"].reshape(-1, 3)), np.sort(mesh.faces))
+        assert np.array_equal(shown["origin"], np.arange(mesh.n_vertices))
+        spread = np.linalg.norm(mesh.vertices[0] - mesh.vertices, axis=1)
+        v = shown["vertices"].reshape(-1, 3)
+        assert np.ptp(np.linalg.norm(v[0] - v, axis=1)[1:] / spread[1:]) < 1e-4  # the same shape, turned and scaled
+        assert np.linalg.norm(v, axis=1).max() <= 0.5
+    assert [mode["key"] for mode in data["modes"]] == ["match", "distortion", "valid", "error"]
+    assert [one["name"] for one in data["maps"]] == ["Best map", "Candidate 1, mirrored"]
+
+
+def test_every_vertex_carries_its_barycentric_partner(answer: Correspondence, tmp_path: Path) -> None:
+    write_report(tmp_path / "r.html", answer)
+    data = page_data(tmp_path / "r.html")
+    back = answer.inverse()
+    for shown, points in zip(data["maps"], (answer.points, answer.candidates[0].points), strict=True):
+        assert np.array_equal(shown["there"]["face"], points.face)
+        assert np.array_equal(shown["there"]["vertex"], points.nearest_vertices())
+        assert np.abs(shown["there"]["weights"].reshape(-1, 3) / 65535 - points.barycentric).max() < 1e-5
+        corners = data["surfaces"][1]["vertices"].reshape(-1, 3)[answer.target.faces[points.face]]
+        drawn = np.einsum("pk,pkj->pj", points.barycentric, corners)
+        assert np.abs(shown["there"]["position"].reshape(-1, 3) / 65535 - 0.5 - drawn).max() < 1e-5
+        assert np.array_equal(shown["there"]["found"], answer.valid)
+    assert np.array_equal(data["maps"][0]["back"]["face"], back.points.face)
+    assert np.array_equal(data["maps"][0]["back"]["found"], back.valid)
+
+
+def test_corresponding_points_have_the_same_colour(answer: Correspondence, tmp_path: Path) -> None:
+    write_report(tmp_path / "r.html", answer)
+    data = page_data(tmp_path / "r.html")
+    source, target = data["maps"][0]["colours"].reshape(-1, 3), data["colours"].reshape(-1, 3)
+    assert np.abs(source - answer.points.interpolate(target))[answer.valid].max() <= 1.01
+    assert (source[~answer.valid] == data["missing"]).all()
+    other = data["maps"][1]["colours"].reshape(-1, 3)
+    assert np.abs(other - answer.candidates[0].points.interpolate(target))[answer.valid].max() <= 1.01
+
+
+def test_values_are_shown_on_both_surfaces(answer: Correspondence, tmp_path: Path) -> None:
+    errors = np.stack([np.linspace(0, 0.1, 500), np.full(500, 0.3)])
+    write_report(tmp_path / "r.html", answer, errors=errors)
+    first, second = page_data(tmp_path / "r.html")["maps"]
+    source, target = first["values"]["distortion"]
+    assert np.allclose(source[answer.valid], answer.distortion[answer.valid]) and np.isnan(source[~answer.valid]).all()
+    back = answer.inverse()
+    expected = np.where(back.valid, back.points.interpolate(np.where(answer.valid, answer.distortion, np.nan)), np.nan)
+    assert np.allclose(target, expected, equal_nan=True)
+    assert np.allclose(first["values"]["error"][0], errors[0], atol=1e-6) and "distortion" not in second["values"]
+    assert np.allclose(second["values"]["error"][0], 0.3)
+    assert sum(first["histograms"]["error"]) == 500 and sum(first["histograms"]["distortion"]) == answer.valid.sum()
+    assert first["curve"][0] == pytest.approx(1 / 500) and first["curve"][20] == 1 and second["curve"][-1] == 0
+
+
+def test_a_truth_that_is_known_at_few_points_colours_what_is_nearest(answer: Correspondence, tmp_path: Path) -> None:
+    errors = np.full(500, np.nan)
+    errors[[3, 400]] = 0.1, 0.2
+    write_report(tmp_path / "r.html", answer, errors=errors)
+    data = page_data(tmp_path / "r.html")
+    v = answer.source.vertices
+    nearer = np.linalg.norm(v - v[3], axis=1) < np.linalg.norm(v - v[400], axis=1)
+    assert np.allclose(data["maps"][0]["values"]["error"][0], np.where(nearer, 0.1, 0.2))
+    assert "known at 2 points" in data["modes"][-1]["help"] and sum(data["maps"][0]["histograms"]["error"]) == 2
+    assert "<b>15.00</b>" in (tmp_path / "r.html").read_text(encoding="utf-8")
+
+
+def test_figures_parameters_versions_and_hashes_are_in_tables(answer: Correspondence, tmp_path: Path) -> None:
     write_report(tmp_path / "r.html", answer, errors=np.full(500, 0.07))
     text = (tmp_path / "r.html").read_text(encoding="utf-8")
-    _, data = read(tmp_path / "r.html")
-    assert [len(s["vertices"]) for s in data["surfaces"]] == [500, 600]
-    assert data["surfaces"][0]["faces"] == answer.source.faces.tolist()
-    assert [view["name"] for view in data["views"]] == ["The map", "Distortion", "Error", "Candidate 1"]
-    assert "7.00 (0.0 % within 0.05, 100.0 % within 0.1, 100.0 % within 0.25)" in text
-    assert answer.status.value.split("`")[0] in text
+    for told in ("<b>7.00</b>", "98.0 %", "<td>0.1", answer.status.value.split("`")[0], "versions: gmds</th><td>0.1"):
+        assert told in text
+    for mesh in (answer.source, answer.target):
+        assert fingerprint(mesh)["sha256"] in text
 
 
-def test_corresponding_points_have_the_same_colour_on_the_page(answer: Correspondence, tmp_path: Path) -> None:
-    write_report(tmp_path / "r.html", answer)
-    view = read(tmp_path / "r.html")[1]["views"][0]
-    channels = [np.stack([np.array(view[s]) >> k & 255 for k in (16, 8, 0)], axis=1) for s in ("source", "target")]
-    expected = answer.points.interpolate(channels[1])
-    assert np.abs(channels[0] - expected)[answer.valid].max() <= 1.01
-    assert len(np.unique(np.array(view["source"])[~answer.valid])) == 1  # grey
+@pytest.mark.parametrize("status", MatchStatus)
+def test_every_status_has_a_verdict_and_an_advice(answer: Correspondence, status: MatchStatus, tmp_path: Path) -> None:
+    write_report(tmp_path / "r.html", replace(answer, status=status))
+    badge = re.search(r'class="badge (\w+)">([^<]+)', (tmp_path / "r.html").read_text(encoding="utf-8"))
+    assert badge and (badge[1] == "good") == (status is MatchStatus.GOOD)
 
 
 def test_nothing_in_names_titles_or_meta_becomes_markup(answer: Correspondence, tmp_path: Path) -> None:
     write_report(tmp_path / "plain.html", answer)
     write_report(tmp_path / "hostile.html", answer, title=HOSTILE, names=(HOSTILE, '" onload="x'))
-    plain, hostile = read(tmp_path / "plain.html")[0], read(tmp_path / "hostile.html")[0]
+    plain, hostile = elements(tmp_path / "plain.html"), elements(tmp_path / "hostile.html")
     assert plain.tags == hostile.tags and plain.attributes == hostile.attributes
     assert "img" not in hostile.tags and not any(name.startswith("on") for name in hostile.attributes)
+    assert page_data(tmp_path / "hostile.html")["surfaces"][0]["name"] == HOSTILE
 
 
 def test_the_policy_lets_only_the_pages_own_scripts_run(answer: Correspondence, tmp_path: Path) -> None:
     write_report(tmp_path / "r.html", answer)
-    page = read(tmp_path / "r.html")[0]
-    allowed = set(re.findall(r"'sha256-([^']+)'", page.policy))
-    own = [text for attrs, text in page.scripts if attrs.get("type") != "application/json"]
-    # the parser hands back what follows a script as its text; the hash is of the script alone
-    found = {base64.b64encode(hashlib.sha256(text.rstrip("\n").encode()).digest()).decode() for text in own}
-    found |= {base64.b64encode(hashlib.sha256((text.rstrip("\n") + "\n").encode()).digest()).decode() for text in own}
-    assert len(allowed) == 2 and allowed <= found
+    page = elements(tmp_path / "r.html")
+    allowed = re.findall(r"'sha256-([^']+)'", page.policy)
+    own = [unpacked(tmp_path / "r.html", "library"), *(text for attrs, text in page.scripts if "type" not in attrs)]
+    assert allowed == [base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() for text in own]
     assert "default-src 'none'" in page.policy and "unsafe-eval" not in page.policy
     assert "unsafe-inline" not in page.policy.split("script-src")[1]
     assert not {"src", "href"} & set(page.attributes)
 
 
-@pytest.mark.skipif(shutil.which("chromium") is None, reason="no chromium")
-def test_a_browser_draws_the_page_and_runs_nothing_foreign(answer: Correspondence, tmp_path: Path) -> None:
-    write_report(tmp_path / "r.html", answer, title=HOSTILE, names=(HOSTILE, HOSTILE))
-    flags = ["--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
-    command = [
-        "chromium",
-        *flags,
-        f"--user-data-dir={tmp_path / 'profile'}",
-        "--virtual-time-budget=20000",
-        "--dump-dom",
-    ]
-    done = subprocess.run([*command, (tmp_path / "r.html").as_uri()], capture_output=True, text=True, timeout=120)
-    assert 'data-ready="yes"' in done.stdout
-    assert "<title>owned</title>" not in done.stdout
+def test_pages_repeat_byte_for_byte(answer: Correspondence, tmp_path: Path) -> None:
+    for name in ("a.html", "b.html"):
+        write_report(tmp_path / name, answer)
+    assert (tmp_path / "a.html").read_bytes() == (tmp_path / "b.html").read_bytes()
 
 
-def test_writing_into_a_missing_folder_raises(answer: Correspondence, tmp_path: Path) -> None:
-    for write in (write_report, write_picture):
-        with pytest.raises(OSError, match="nowhere"):
-            write(tmp_path / "nowhere" / "x", answer)
+def test_errors_must_fit_the_map(answer: Correspondence, tmp_path: Path) -> None:
+    for wrong in (np.zeros(3), np.zeros((3, 500)), np.zeros((1, 1, 500))):
+        with pytest.raises(ValueError, match="each of the 500 vertices, in at most 2 rows"):
+            write_report(tmp_path / "r.html", answer, errors=wrong)
+    with pytest.raises(OSError, match="nowhere"):
+        write_report(tmp_path / "nowhere" / "r.html", answer)
 
 
 def test_maps_without_any_counterpart_and_errors_without_numbers_can_be_shown(tmp_path: Path) -> None:
     shape = tetrahedron()
-    answer = Correspondence.from_points(
-        shape, SurfacePoints.at_vertices(shape, [0, 1, 2, 3]), valid=np.zeros(4, dtype=bool)
-    )
-    for write in (write_report, write_picture):
-        write(tmp_path / "out", answer, errors=np.full(4, np.nan))
-        with pytest.raises(ValueError, match="each of the 4 vertices"):
-            write(tmp_path / "out", answer, errors=np.zeros(3))
-    with pytest.raises(ValueError, match="each of the 4 vertices"):
-        write_values(tmp_path / "out", [("short", shape, [1.0])])
+    points = SurfacePoints.at_vertices(shape, [0, 1, 2, 3])
+    answer = Correspondence.from_points(shape, points, valid=np.zeros(4, dtype=bool))
+    write_report(tmp_path / "r.html", answer, errors=np.full(4, np.nan))
+    data = page_data(tmp_path / "r.html")
+    assert [mode["key"] for mode in data["modes"]] == ["match", "valid"]
+    assert not data["maps"][0]["there"]["found"].any() and not data["maps"][0]["back"]["found"].any()
 
 
-def pixels_of(path: Path) -> np.ndarray:
-    from matplotlib.image import imread
-
-    assert path.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
-    return imread(path)[:, :, :3]
-
-
-def test_the_picture_shows_source_target_and_errors(answer: Correspondence, tmp_path: Path) -> None:
-    plain = Correspondence.from_points(answer.source, answer.points)
-    write_picture(tmp_path / "two.png", plain, pixels=150)
-    write_picture(tmp_path / "three.png", answer, errors=np.linspace(0, 1, 500), title="$x <b>", pixels=150)
-    two, three = pixels_of(tmp_path / "two.png"), pixels_of(tmp_path / "three.png")
-    assert three.shape[1] > 1.3 * two.shape[1]
-    assert 0.1 < (two.min(axis=2) < 0.98).mean() < 0.9
+def with_a_third_sheet(mesh: Mesh) -> Mesh:
+    """The mesh with one more face at its first edge, so that the edge has three."""
+    a, b, _ = mesh.faces[0]
+    corner = np.append(mesh.vertices, [mesh.vertices.max(axis=0) + 1], axis=0)
+    return Mesh(corner, np.append(mesh.faces, [[a, b, mesh.n_vertices]], axis=0))
 
 
-def test_values_and_labels_make_pictures(tmp_path: Path) -> None:
-    sphere = icosphere(2)
-    z = np.where(np.arange(sphere.n_vertices) == 0, np.inf, sphere.vertices[:, 2])
-    write_values(tmp_path / "values.png", [("height", sphere, z), ("flat", rectangle(3, 3), np.zeros(16))], pixels=120)
-    write_values(tmp_path / "labels.png", [("sign", sphere, np.sign(z).astype(int))], labels=True, pixels=120)
-    assert pixels_of(tmp_path / "values.png").size and pixels_of(tmp_path / "labels.png").size
+@pytest.mark.parametrize("branching", [False, True])
+def test_large_surfaces_are_drawn_as_copies_near_them(branching: bool) -> None:
+    large = rectangle(150, 80)
+    large = with_a_third_sheet(large) if branching else large
+    drawn = drawing(large, np.eye(3))
+    assert large.n_vertices > MOST and 0.5 * DRAWN < len(drawn.vertices) <= MOST
+    gap = np.linalg.norm(drawn.vertices - large.vertices[drawn.origin], axis=1)
+    assert gap.max() < 2 * np.sqrt(large.area / len(drawn.vertices))
+    assert np.abs(drawn.placed(large.vertices)).max() <= 0.5
 
 
-def test_pictures_repeat_byte_for_byte(answer: Correspondence, tmp_path: Path) -> None:
-    for name in ("a.png", "b.png"):
-        write_picture(tmp_path / name, answer, pixels=100)
-    assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
-
-
-def test_a_sphere_seen_from_anywhere_is_a_disc_of_the_right_size() -> None:
-    sphere = icosphere(4)
-    for azimuth, elevation in ((0, 0), (50, 30)):
-        black = render(sphere, np.zeros((sphere.n_vertices, 3)), rotation=view_rotation(azimuth, elevation), pixels=200)
-        assert (1 - black).mean(axis=2).sum() == pytest.approx(np.pi * (0.47 * 200) ** 2, rel=0.02)
-
-
-def test_what_is_nearer_hides_what_is_behind() -> None:
-    near, far = [[1, -1, -1], [1, 1, -1], [1, 0, 1]], [[0, -1, -1], [0, 1, -1], [0, 0, 1]]
-    colours = np.repeat([[1.0, 0, 0], [0, 0, 1.0]], 3, axis=0)
-    for vertices, own in ((near + far, colours), (far + near, colours[::-1])):
-        mesh = Mesh(vertices, [[0, 1, 2], [3, 4, 5]])
-        image = render(mesh, own, rotation=view_rotation(0, 0), pixels=60)
-        red, _, blue = image[30, image.shape[1] // 2]
-        assert red > 0.5 and blue < 0.1
-
-
-def test_covered_pixels_are_those_whose_centre_is_in_a_triangle() -> None:
-    """A naive twin: each pixel's centre is tested against each triangle in turn."""
-    mesh, rotation = tetrahedron(), view_rotation(20, 35)
-    colours = np.eye(4)[:, :3]
-    image = render(mesh, colours, rotation=rotation, pixels=40, oversampling=1)
-    camera = mesh.vertices @ rotation.T
-    span = np.ptp(camera[:, :2], axis=0)
-    scale = 0.94 * 40 / span.max()
-    height, width = image.shape[:2]
-    centre = (camera[:, :2].min(0) + camera[:, :2].max(0)) / 2
-    xy = (camera[:, :2] - centre) * scale * [1, -1] + [width / 2, height / 2]
-    covered = np.zeros((height, width), dtype=bool)
-    for row, column in np.ndindex(height, width):
-        for face in mesh.faces:
-            system = np.vstack([xy[face].T, np.ones(3)])
-            weights = np.linalg.solve(system, [column + 0.5, row + 0.5, 1])
-            covered[row, column] |= bool((weights >= -1e-9).all())
-    assert np.array_equal(covered, image.min(axis=2) < 1)
-
-
-def test_the_target_is_turned_to_be_seen_from_the_same_side() -> None:
-    shape = ellipsoid(2)
-    turned = moved(shape, scale=7.0, seed=5)
-    answer = Correspondence.from_points(shape, SurfacePoints.at_vertices(turned, np.arange(turned.n_vertices)))
-    back = (turned.vertices - turned.vertices.mean(0)) @ alignment(answer).T / 7
-    assert np.allclose(back, shape.vertices - shape.vertices.mean(0), atol=1e-9)
-
-
-def test_cameras_are_rotations_even_for_odd_shapes() -> None:
-    needle = Mesh([[0, 0, 0], [1e-6, 0, 1], [0, 0, 2.5]], [[0, 1, 2]])
-    for mesh in (icosphere(1), rectangle(2, 2), needle):
-        for up in ((0, 0, 1), (0, 1, 0), (1, 2, 3)):
-            r = broadside(mesh, up)
-            assert np.allclose(r @ r.T, np.eye(3), atol=1e-9) and np.linalg.det(r) == pytest.approx(1)
-            assert (r @ up)[1] > 0  # up is up
-
-
-def test_colours_stay_in_range_and_missing_values_are_grey() -> None:
-    for colours in (
-        position_colours(icosphere(2).vertices),
-        position_colours(np.zeros((4, 3))),
-        value_colours([0, 1, np.nan, np.inf, -5], 0, 1),
-        value_colours([2.0, 2.0], 2, 2),
-        label_colours(np.arange(-1, 40)),
-    ):
-        assert np.isfinite(colours).all() and colours.min() >= 0 and colours.max() <= 1
-    assert len(np.unique(label_colours(np.arange(40)).round(3), axis=0)) == 40
-    grey = value_colours([np.nan], 0, 1)[0]
-    assert np.ptp(grey) == 0
-
-
-def test_value_colours_grow_lighter_so_that_grey_prints_read() -> None:
-    light = value_colours(np.linspace(0, 1, 50), 0, 1) @ [0.2126, 0.7152, 0.0722]
-    assert (np.diff(light) > 0).all()
-
-
-def test_left_and_right_differ_for_eyes_without_red_or_green() -> None:
-    """Positions mirrored across the shape must differ once red and green are seen as one."""
-    animal = quadruped(n_vertices=500)
-    colours = position_colours(animal.vertices)
-    seen = np.stack([0.6 * colours[:, 0] + 0.4 * colours[:, 1], colours[:, 2]], axis=1)
-    limbs = [np.flatnonzero((animal.vertices[:, 2] < 0.5) & (s * animal.vertices[:, 1] > 0)) for s in (1, -1)]
-    left, right = (seen[limb].mean(axis=0) for limb in limbs)
-    assert np.linalg.norm(left - right) > 0.1
+def test_clusters_keep_no_face_that_is_none() -> None:
+    copy = clustered(rectangle(40, 40), 300)
+    assert 100 < copy.n_vertices <= 300
+    assert all(len(set(face)) == 3 for face in copy.faces.tolist())
+    assert copy.area == pytest.approx(rectangle(40, 40).area, rel=0.2)

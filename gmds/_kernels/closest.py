@@ -57,26 +57,39 @@ def closest_on_faces(
 
 
 @summing
-def nearest_candidates(queries: Single, rows: Single, candidates: Index) -> Index:
-    """For each query (p, k) the nearest of the rows (n, k) that are its `candidates` (p, c), the first of equals."""
-    p, count = candidates.shape
+def nearest_around(queries: Single, rows: Single, neighbours: Index, start: Index, guess: Index, rounds: int) -> Index:
+    """For each query (p, k) the nearest of the rows (n, k) among those around the row `guess` (p,), and it itself.
+
+    `neighbours[start[v]:start[v + 1]]` are those around row v. The nearest is the guess of the next look, of `rounds`
+    at most.
+    """
+    p, dim = queries.shape
     found = np.empty(p, np.int64)
     half = np.empty(len(rows), rows.dtype)
     for j in range(len(rows)):
         total = rows.dtype.type(0)
-        for d in range(rows.shape[1]):
+        for d in range(dim):
             total += rows[j, d] * rows[j, d]
         half[j] = total / 2
     for i in range(p):
-        best, found[i] = np.inf, candidates[i, 0]
-        for c in range(count):
-            row = candidates[i, c]
-            total = rows.dtype.type(0)
-            for d in range(rows.shape[1]):
-                total += queries[i, d] * rows[row, d]
-            gap = half[row] - total
-            if gap < best:
-                best, found[i] = gap, row
+        row = guess[i]
+        total = rows.dtype.type(0)
+        for d in range(dim):
+            total += queries[i, d] * rows[row, d]
+        best = half[row] - total
+        for _ in range(rounds):
+            centre = row
+            for slot in range(start[centre], start[centre + 1]):
+                other = neighbours[slot]
+                total = rows.dtype.type(0)
+                for d in range(dim):
+                    total += queries[i, d] * rows[other, d]
+                gap = half[other] - total
+                if gap < best:
+                    best, row = gap, other
+            if row == centre:
+                break
+        found[i] = row
     return found
 
 

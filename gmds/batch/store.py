@@ -25,7 +25,7 @@ from gmds.surface_file import read_surface, write_surface
 PARAMETERS = {
     "format": surface_file.VERSION,
     "versions": versions(),
-    "functions": (surface.EIGENFUNCTIONS, surface.DETAIL_FUNCTIONS, surface.SAMPLING_FUNCTIONS),
+    "functions": (surface.EIGENFUNCTIONS, surface.ROUGH_FUNCTIONS, surface.SAMPLING_FUNCTIONS),
     "metrics": (surface.EXPONENTS, surface.SMOOTHING, surface.DETAIL),
     "samples": (upsampling.TARGET_SAMPLES, refinement.CARRIERS, refinement.GOALS),
 }
@@ -62,7 +62,7 @@ class Store:
         """The mesh of a stored surface, and `count` of its vertices evenly spread, without all the rest."""
         with np.load(self._path(record.key, False), allow_pickle=False) as archive:
             most = max(
-                (name for name in archive if name.startswith("detail_samples_")),
+                (name for name in archive if name.startswith(f"view{len(surface.EXPONENTS)}_samples_")),
                 key=lambda name: int(name.rpartition("_")[2]),
             )
             return Mesh(archive["original_vertices"], archive["original_faces"]), archive[most][:count]

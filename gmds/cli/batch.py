@@ -39,6 +39,10 @@ SHARES = ("within_005", "within_010")
 def command(list_or_dir: Path, output: Path, as_json: bool, **options: Any) -> None:
     """Match the pairs in a list, or those of all shapes in a folder, and write all maps to the output folder.
 
+    \b
+      gmds batch meshes -o maps
+      gmds batch pairs.txt -o maps --timeout 600
+
     A list is a text file with `A,B` a line, paths relative to it, or with one file a line. A folder stands for the
     meshes in it; each is matched with every later one, with the next (consecutive), or one with all (template=NAME).
 

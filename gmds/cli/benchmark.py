@@ -25,6 +25,10 @@ def command(
 ) -> None:
     """Match every pair of a benchmark folder and judge it against the truth.
 
+    \b
+      gmds benchmark dataset -o rows.csv
+      gmds benchmark dataset --every 10 --json
+
     Every mesh is turned and resized at random first. A row says: mean error x100 (geodesic distance over the square
     root of the target's area) against the true correspondence (direct), the left-right flipped one (sym) and the better
     of the two; percentage within 0.10; percentage of the target that is hit; CPU seconds; status. CSV and JSON also

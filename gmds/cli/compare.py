@@ -22,6 +22,10 @@ if TYPE_CHECKING:
 def command(folder: Path, output: Path, embed: int, as_json: bool) -> None:
     """Compare all shapes of FOLDER, whatever their poses and sizes and, within limits, the sizes of their parts.
 
+    \b
+      gmds compare meshes -o compared
+      gmds compare meshes -o compared --embed 3
+
     Every pair gets a bound: the least distortion that a map of one surface to the other can have if it keeps area, in
     the scale-invariant metric; a millisecond or two. With --embed N every shape and the N others of least bound are
     also embedded in each other, and these pairs get the distortion of the best embeddings found, of the way round that

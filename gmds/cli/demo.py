@@ -9,8 +9,9 @@ import click
 
 from gmds.cli.choices import chosen_distance
 from gmds.cli.group import Command
-from gmds.cli.match import described, write_views
+from gmds.cli.match import described
 from gmds.cli.output import emit, json_option, note, progress_bar, seed_option
+from gmds.cli.views import write_views
 
 if TYPE_CHECKING:
     from geodesics import SurfacePoints
@@ -24,6 +25,10 @@ if TYPE_CHECKING:
 def command(output: Path, seed: int, as_json: bool) -> None:
     """Match two built-in shapes and judge the map against the truth.
 
+    \b
+      gmds demo
+      gmds demo -o somewhere --json
+
     The shapes are an animal, and the same animal in another pose, with its head twice as big and triangulated anew.
     The error is the mean geodesic distance from the truth over the square root of the area, times 100. It is printed
     for maps that preserve diffusion distances in the metric of space ("regular") and in the scale-invariant metric,
@@ -34,6 +39,7 @@ def command(output: Path, seed: int, as_json: bool) -> None:
 
     from geodesics import write_mesh
     from gmds import Correspondence, match
+    from gmds.evaluation import errors_of_maps, protocol_subset
     from gmds.shapes import demo_pair
 
     output.mkdir(parents=True, exist_ok=True)
@@ -54,7 +60,10 @@ def command(output: Path, seed: int, as_json: bool) -> None:
     answer.save(output / "map.npz")
     result = {name: {**_judged(answers[name], truth), "cpu_seconds": seconds[name]} for name in answers}
     emit({"pair": f"{source.n_vertices} -> {target.n_vertices} vertices", **result, **described(answer)}, as_json)
-    write_views(answer, output / "report.html", output / "picture.png")
+    chosen = protocol_subset(len(truth))
+    errors = errors_of_maps(answer, truth[chosen], chosen)
+    title, names = "An animal, and itself in another pose with a bigger head", ("source.ply", "target.ply")
+    write_views(answer, output / "report.html", output / "picture.png", errors, title=title, names=names)
     note(f"map, meshes and truth are in {output}")
 
 

@@ -48,7 +48,7 @@ def command(
     """Measure distances on MESH from the vertices given by --from to every vertex.
 
     \b
-      gmds distances dog.ply --from 0 --from 512 -o distances.npz --picture distances.png
+      gmds distances dog.ply --from 0 --from 99 -o distances.npz --picture distances.png
       gmds distances dog.ply --from farthest:10 --metric scale-invariant --distance diffusion -o distances.csv
 
     farthest:COUNT stands for that many vertices, each the farthest from those before it.

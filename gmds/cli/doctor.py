@@ -14,6 +14,10 @@ from gmds.cli.output import emit, json_option
 def command(ctx: click.Context, as_json: bool) -> None:
     """Look at Python, the packages, the optional parts, the threads, and the folder that keeps compiled kernels.
 
+    \b
+      gmds doctor
+      gmds doctor --json
+
     Optional parts that are absent are no problem: it is said how to install them and what they are for. A browser is
     needed to look at reports, not to write them. Exit code 1 when there is a problem; send the output of this command
     along with a report of an error.

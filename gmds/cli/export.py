@@ -22,6 +22,10 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
     """Write the map in MAP for other programs.
 
     \b
+      gmds export map.npz --source dog.ply --target wolf.off -o map.csv
+      gmds export map.npz --source dog.ply --target wolf.off -o map.mat
+
+    \b
     .csv  a row for every source vertex, indices from 0: source_vertex, target_vertex (the nearest), face,
           weight_0 weight_1 weight_2 (where on that face), x y z, valid, distortion
     .mat  for MATLAB, indices from 1: vertex, face, barycentric, position, valid, distortion, status, n_source, n_target

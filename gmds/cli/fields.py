@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from gmds.cli.choices import DISTANCES, METRICS
-from gmds.cli.output import cell, note
+from gmds.cli.output import cell, tell_written
 
 if TYPE_CHECKING:
     import numpy as np
@@ -44,7 +44,10 @@ distance_option = click.option(
 output_option = click.option(
     "-o", "--output", required=True, type=EndingIn(".npz", ".csv"), help="Where the values go: .npz or .csv."
 )
-picture_option = click.option("--picture", type=EndingIn(".png"), help="Write a PNG of the surface as well.")
+PICTURES = (".png", ".jpg", ".jpeg", ".svg", ".pdf")
+picture_option = click.option(
+    "--picture", type=EndingIn(*PICTURES), help="Draw the surface as well: .png, .jpg, .svg or .pdf."
+)
 
 
 def write_field(path: Path, arrays: Mapping[str, NDArray[Any]], columns: Mapping[str, NDArray[Any]]) -> None:
@@ -73,8 +76,7 @@ def draw(path: Path | None, surfaces: list[tuple[str, Mesh, NDArray[np.generic]]
         return
     from gmds.pictures import write_values
 
-    write_values(path, surfaces, labels=labels)
-    note(f"wrote {path}")
+    tell_written(path, write_values(path, surfaces, labels=labels))
 
 
 def _table(columns: Mapping[str, NDArray[Any]]) -> str:

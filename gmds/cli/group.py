@@ -7,8 +7,10 @@ import importlib
 import os
 import signal
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from difflib import get_close_matches
+from pathlib import Path
 from typing import Any, NoReturn
 
 import click
@@ -25,16 +27,17 @@ class Command(click.Command):
 
 
 class LazyGroup(click.Group):
-    """Commands live in modules named after them, below `commands_in`, as `command`.
+    """Commands live in modules named after them, below `commands_in`, as `command`; `sections` are for the help.
 
     Exit codes: 0 done, 1 bad mesh or file, 2 wrong usage, 3 a batch finished with failures, 130 interrupted.
     Errors are one line on stderr; `--debug` shows the traceback.
     """
 
-    def __init__(self, name: str, *, commands_in: str, command_names: Sequence[str], **kwargs: Any) -> None:
+    def __init__(self, name: str, *, commands_in: str, sections: Mapping[str, Sequence[str]], **kwargs: Any) -> None:
         super().__init__(name, context_settings={"help_option_names": ["-h", "--help"]}, **kwargs)
         self.params += [_version_option(), _debug_option()]
-        self.commands_in, self.command_names = commands_in, tuple(command_names)
+        self.commands_in, self.sections = commands_in, dict(sections)
+        self.command_names = tuple(name for names in sections.values() for name in names)
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(self.command_names)
@@ -44,6 +47,18 @@ class LazyGroup(click.Group):
             return None
         command: click.Command = importlib.import_module(f"{self.commands_in}.{cmd_name}").command
         return command
+
+    def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
+        if args and not args[0].startswith("-") and args[0] not in self.command_names:
+            ctx.fail(_no_such_command(args, self.command_names))
+        return super().resolve_command(ctx, args)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        longest = max(map(len, self.command_names))  # the columns of all sections stand below each other
+        for title, names in self.sections.items():
+            commands = [(name, self.get_command(ctx, name)) for name in names]
+            with formatter.section(title):
+                formatter.write_dl([(f"{name:<{longest}}", c.get_short_help_str(60)) for name, c in commands if c])
 
     def main(self, args: Sequence[str] | None = None, *_: Any, **extra: Any) -> NoReturn:
         """Run, and end the process with the exit code."""
@@ -69,7 +84,7 @@ def _errors_as_exit_codes(debug: bool) -> Iterator[None]:
         if error.errno == errno.EPIPE:  # the reader of our output has gone: nothing to say, and nobody to say it to
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             sys.exit(BAD_INPUT)
-        _fail_or_show(error, debug)
+        _fail_or_show(error, debug, _plainly(error))
     except (ValueError, ArithmeticError, ImportError, MemoryError) as error:
         _fail_or_show(error, debug)
     except Exception as error:
@@ -80,10 +95,23 @@ def _errors_as_exit_codes(debug: bool) -> Iterator[None]:
         _on_terminate(previous)
 
 
-def _fail_or_show(error: BaseException, debug: bool) -> NoReturn:
+def _fail_or_show(error: BaseException, debug: bool, message: str = "") -> NoReturn:
     if debug:
         raise error
-    _fail(str(error) or type(error).__name__, BAD_INPUT)
+    _fail(message or str(error) or type(error).__name__, BAD_INPUT)
+
+
+def _plainly(error: OSError) -> str:
+    """The file and what is the matter with it; nothing where the system gave no file."""
+    return f"{error.filename}: {error.strerror}" if error.filename and error.strerror else ""
+
+
+def _no_such_command(args: Sequence[str], known: Sequence[str]) -> str:
+    wrong = args[0]
+    if Path(wrong).suffix:
+        return f"{wrong!r} is no command. For two meshes: gmds match {' '.join(args)}"
+    near = get_close_matches(wrong, known, n=2)
+    return f"No such command {wrong!r}." + (f" Did you mean {' or '.join(near)}?" if near else "")
 
 
 def _fail(message: str, code: int) -> NoReturn:

@@ -41,6 +41,10 @@ def command(
     """Match SOURCE to TARGET and find for every landmark of SOURCE its place on TARGET.
 
     \b
+      gmds landmarks dog.ply dog.mrk.json wolf.off -o wolf.mrk.json
+      gmds landmarks dog.ply dog.csv wolf.off -o wolf.csv --map map.npz
+
+    \b
     Landmark files, read and written, by their endings:
       .csv       name,x,y,z or name,vertex (from 0) a line; written with the columns below
       .mrk.json  markups of 3D Slicer; the columns below go to the description

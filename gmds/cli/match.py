@@ -11,6 +11,7 @@ from gmds.cli.landmark_options import given_landmarks, space_option, tolerance_o
 from gmds.cli.matching_options import matching_arguments, matching_options
 from gmds.cli.output import emit, json_option, note, progress_bar
 from gmds.cli.settings import ConfiguredCommand
+from gmds.cli.views import view_options, write_views
 
 FILE = click.Path(path_type=Path)
 
@@ -19,8 +20,7 @@ FILE = click.Path(path_type=Path)
 @click.argument("source", type=FILE)
 @click.argument("target", type=FILE)
 @click.option("-o", "--output", default="map.npz", show_default=True, type=FILE, help="Where the map goes.")
-@click.option("--report", type=FILE, help="Write a page to turn both surfaces in a browser.")
-@click.option("--picture", type=FILE, help="Write a PNG of both surfaces.")
+@view_options
 @click.option("--landmarks", type=FILE, multiple=True, help="Known points; given once or twice, see above.")
 @space_option
 @tolerance_option
@@ -28,6 +28,10 @@ FILE = click.Path(path_type=Path)
 @json_option
 def command(source: Path, target: Path, output: Path, as_json: bool, **options: Any) -> None:
     """Find for every vertex of SOURCE the point of TARGET that corresponds to it, and write the map.
+
+    \b
+      gmds match dog.ply wolf.off -o map.npz --report map.html --picture map.png
+      gmds match dog.ply wolf.off --landmarks dog.csv --landmarks wolf.csv
 
     Meshes are OFF, OBJ, PLY, STL, GLB or TOSCA .vert/.tri files. The map is a .npz that numpy alone can read.
 
@@ -51,7 +55,8 @@ def command(source: Path, target: Path, output: Path, as_json: bool, **options: 
         note(f"gmds: {line}")
     answer.save(output)
     emit({"map": str(output), "cpu_seconds": seconds, **described(answer)}, as_json)
-    write_views(answer, options["report"], options["picture"])
+    shown = {name: options[name] for name in ("report", "picture", "up")}
+    write_views(answer, **shown, title=f"{source.name} → {target.name}", names=(source.name, target.name))
 
 
 def described(answer: Any) -> dict[str, Any]:
@@ -66,17 +71,3 @@ def described(answer: Any) -> dict[str, Any]:
         "median_distortion": float(np.median(answer.distortion)),
         "candidates": candidates,
     }
-
-
-def write_views(answer: Any, report: Path | None, picture: Path | None, **details: Any) -> None:
-    """The page and the picture that were asked for; each written file is named on stderr."""
-    if report is not None:
-        from gmds.report import write_report
-
-        write_report(report, answer, **details)
-        note(f"wrote {report}")
-    if picture is not None:
-        from gmds.pictures import write_picture
-
-        write_picture(picture, answer, **details)
-        note(f"wrote {picture}")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 import click
@@ -35,6 +36,13 @@ def cell(text: str) -> str:
 def note(message: str) -> None:
     """One line on stderr."""
     click.echo(message, err=True)
+
+
+def tell_written(path: Path, why: str) -> None:
+    """Name a picture that was written, and say `why` it was drawn otherwise than it should be, if it was."""
+    note(f"wrote {path}")
+    if why:
+        note(why)
 
 
 @contextmanager

@@ -27,6 +27,9 @@ COLUMNS = ("rank", "mesh", "distance")
 def command(query: Path, folder: Path, output: Path | None, words: int, seed: int, as_json: bool) -> None:
     """Rank the meshes of DIR by their likeness to QUERY, whatever their poses and the sizes of their parts.
 
+    \b
+      gmds retrieve dog.ply meshes -o ranking.csv
+
     Meshes are compared by bags of features (ShapeGoogle, Table 1 of the paper) whose vocabulary is learned from DIR and
     QUERY. A distance is from 0 (alike) to 2 (nothing in common). QUERY itself is left out where it lies in DIR; a mesh
     that cannot be read or measured is named on stderr and left out, and the exit code is 3.

@@ -8,8 +8,8 @@ from typing import Any
 import click
 
 from gmds.cli.group import Command
-from gmds.cli.match import write_views
 from gmds.cli.output import emit, json_option, note, progress_bar
+from gmds.cli.views import view_options, write_views
 
 FILE = click.Path(path_type=Path)
 
@@ -17,14 +17,16 @@ FILE = click.Path(path_type=Path)
 @click.command(cls=Command, short_help="Find the symmetries of a mesh, whatever its pose.")
 @click.argument("mesh", type=FILE)
 @click.option("-o", "--output", default="map.npz", show_default=True, type=FILE, help="Where the best map goes.")
-@click.option("--report", type=FILE, help="Write a page to turn the surface in a browser, coloured by the best map.")
-@click.option("--picture", type=FILE, help="Write a PNG of the same.")
+@view_options
 @click.option(
     "--vertices", type=click.IntRange(min=100), default=5000, show_default=True, help="Work on a copy with no more."
 )
 @json_option
-def command(mesh: Path, output: Path, report: Path | None, picture: Path | None, vertices: int, as_json: bool) -> None:
+def command(mesh: Path, output: Path, vertices: int, as_json: bool, **shown: Any) -> None:
     """Find the maps of MESH to itself, other than the identity, and write them.
+
+    \b
+      gmds symmetry dog.ply -o mirror.npz --picture mirror.png
 
     \b
     A limb or an ear may differ in size from its partner. All that are found are told, the best first:
@@ -58,7 +60,7 @@ def command(mesh: Path, output: Path, report: Path | None, picture: Path | None,
     if not found:
         note("no symmetry found; nothing was written")
         return
-    write_views(found[0], report, picture)
+    write_views(found[0], **shown, title=f"A symmetry of {mesh.name}", names=(mesh.name, f"{mesh.name}, mapped"))
 
 
 def described(one: Any, path: Path) -> dict[str, Any]:

@@ -13,6 +13,9 @@ from gmds.cli.output import emit, json_option, note, progress_bar
 def command(as_json: bool) -> None:
     """Compile all kernels by matching two tiny built-in shapes, so that the first real match does not wait for it.
 
+    \b
+      gmds warmup
+
     What is compiled is kept on disk and serves all later processes; a second `gmds warmup` finds it there and compiles
     nothing. Do this when an image for a cluster is built, or before timing anything.
     """

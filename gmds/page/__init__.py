@@ -1,1 +1,1 @@
-"""The parts of the page that `gmds.report` writes."""
+"""What is on the page that `gmds.report` writes: the parts of it, and what fills them."""

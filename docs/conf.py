@@ -1,0 +1,94 @@
+"""How the documentation is built, from the top of the repository: `sphinx-build -W -c docs . site`.
+
+The source folder is the repository itself, so that links between README, docs and benchmarks/results hold here and
+where the repository is browsed alike. Nothing is downloaded.
+"""
+
+from __future__ import annotations
+
+import itertools
+import re
+import sys
+from pathlib import Path
+from typing import Any, Generic, TypeVar
+
+import numpy.typing
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE.parent), str(HERE)]
+
+
+class ArrayLike:
+    """Shown by its name; what numpy's stands for fills three lines of every signature."""
+
+
+class NDArray(Generic[TypeVar("T")]):
+    """Likewise."""
+
+
+numpy.typing.ArrayLike, numpy.typing.NDArray = ArrayLike, NDArray  # type: ignore[misc, assignment]
+
+import generated  # noqa: E402
+
+import gmds  # noqa: E402
+
+GENERATED = {
+    "docs/reference/command-line": generated.every_command,
+    "docs/reference/errors": generated.every_code,
+}
+
+project = "gmds"
+author = copyright = "the gmds developers"
+release = version = gmds.__version__
+
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx_copybutton"]
+root_doc = "docs/index"
+include_patterns = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/**.md", "benchmarks/results/*.md"]
+exclude_patterns = ["docs/paper/**"]
+myst_heading_anchors = 3
+
+html_theme = "furo"
+html_title = f"gmds {release}"
+html_extra_path = ["top"]  # index.html, which leads to docs/index.html
+html_copy_source = False
+html_show_sphinx = False
+
+default_role = "py:obj"
+add_module_names = False
+smartquotes = False
+autodoc_typehints_format = "short"
+autodoc_member_order = "bysource"
+autodoc_default_options = {"members": True, "undoc-members": True}
+autodoc_preserve_defaults = True
+maximum_signature_line_length = 96
+python_use_unqualified_type_names = True
+
+
+def plain_docstrings(_app: Any, _what: str, _name: str, _thing: Any, _options: Any, lines: list[str]) -> None:
+    """Docstrings are plain text with `names`, formulas and tables; other marks of reStructuredText are escaped."""
+    plain: list[str] = []
+    for is_table, group in itertools.groupby(lines, key=lambda line: line.startswith(("| ", "|--"))):
+        plain += (_table if is_table else _escaped)(list(group))
+    lines[:] = plain
+
+
+def _escaped(lines: list[str]) -> list[str]:
+    between = re.compile(r"(`[^`]*`)|([*|]|_(?!\w))")
+    return [between.sub(lambda found: found[1] or "\\" + found[2], line) for line in lines]
+
+
+def _table(lines: list[str]) -> list[str]:
+    rows = [_escaped([cell.strip() for cell in line.strip("| ").split("|")]) for line in lines if "|--" not in line]
+    cells = [f"   {'  -' if column else '* -'} {cell}" for row in rows for column, cell in enumerate(row)]
+    return [".. list-table::", "   :header-rows: 1", "", *cells, ""]
+
+
+def complete(_app: Any, docname: str, source: list[str]) -> None:
+    """What is generated comes below what the page says."""
+    if docname in GENERATED:
+        source[0] += GENERATED[docname]()
+
+
+def setup(app: Any) -> None:
+    app.connect("autodoc-process-docstring", plain_docstrings)
+    app.connect("source-read", complete)

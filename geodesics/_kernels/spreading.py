@@ -1,0 +1,34 @@
+"""Which rows are closer to a new one than to all before: the inner loop of farthest-point sampling in an embedding."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics._kernels.jit import njit
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+
+@njit
+def closer_rows(rows: Array, label: Index, linked: bool, row: int, nearest: Array) -> tuple[Index, Array]:
+    """The rows (n, k) whose distance from `row` is less than their `nearest` (n,), and that distance.
+
+    Rows with a negative `label` (n,) do not count, nor, unless all are `linked`, those with another than that of `row`.
+    """
+    n, dim = rows.shape
+    where, values, count = np.empty(n, np.int64), np.empty(n), 0
+    for i in range(n):
+        if label[i] < 0 or not (linked or label[i] == label[row]):
+            continue
+        limit, total = nearest[i] * nearest[i], 0.0
+        for d in range(dim):
+            gap = rows[i, d] - rows[row, d]
+            total += gap * gap
+            if total >= limit:
+                break
+        if np.sqrt(total) < nearest[i]:
+            where[count], values[count] = i, np.sqrt(total)
+            count += 1
+    return where[:count], values[:count]

@@ -1,0 +1,51 @@
+"""Tables that would not fit are refused before any of them is taken."""
+
+from __future__ import annotations
+
+import math
+import os
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics.errors import WouldExceedMemory
+
+WORTH_ASKING = 100_000_000  # bytes: less is taken without looking
+SHARE = 0.9  # of the free memory that one table may have
+
+
+def table(rows: int, columns: int, what: str, instead: str) -> NDArray[np.float64]:
+    """An empty table (rows, columns) of float64. Raises `WouldExceedMemory` (E501) when it does not fit."""
+    needed = 8 * rows * columns
+    if needed > WORTH_ASKING and needed > (free := SHARE * available()):
+        raise WouldExceedMemory(
+            f"{what}, {rows} x {columns} numbers, need {needed / 1e9:.1f} GB, "
+            f"and {free / 1e9:.1f} GB are free; {instead}"
+        )
+    return np.empty((rows, columns))
+
+
+def available() -> float:
+    """Bytes that may be taken now: what the system and the control group have left; inf where nobody knows."""
+    return min(_of_the_system(), _of_the_group(Path("/sys/fs/cgroup")))
+
+
+def _of_the_system() -> float:
+    try:
+        lines = Path("/proc/meminfo").read_text(encoding="ascii").splitlines()
+        return next(1024.0 * int(line.split()[1]) for line in lines if line.startswith("MemAvailable:"))
+    except (OSError, StopIteration, ValueError):
+        pass
+    try:  # without /proc: half of all there is
+        return 0.5 * os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    except (AttributeError, OSError, ValueError):
+        return math.inf
+
+
+def _of_the_group(folder: Path) -> float:
+    try:
+        limit, used = (int((folder / name).read_text(encoding="ascii")) for name in ("memory.max", "memory.current"))
+    except (OSError, ValueError):  # no such group, or "max"
+        return math.inf
+    return max(0.0, float(limit - used))

@@ -1,0 +1,47 @@
+"""The page and the picture of a map, as commands offer them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import click
+
+from gmds.cli.fields import PICTURES, EndingIn
+from gmds.cli.output import note, tell_written
+
+FILE = click.Path(path_type=Path)
+UP = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
+
+report_option = click.option("--report", type=FILE, help="Write a page to turn both surfaces in a browser.")
+picture_option = click.option(
+    "--picture", type=EndingIn(*PICTURES), help="Draw both surfaces: .png, .jpg, .svg or .pdf."
+)
+up_option = click.option(
+    "--up", type=click.Choice(list(UP)), default="z", show_default=True, help="Axis of the meshes that is shown as up."
+)
+
+
+def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The options --report, --picture and --up."""
+    return report_option(picture_option(up_option(command)))
+
+
+def write_views(
+    answer: Any, report: Path | None, picture: Path | None, errors: Any = None, *, up: str = "z", **details: Any
+) -> None:
+    """The page and the picture that were asked for; each written file is named on stderr.
+
+    `errors` and `details` are those of `gmds.report.write_report`; the picture shows the errors of the best map.
+    """
+    if report is not None:
+        from gmds.report import write_report
+
+        write_report(report, answer, errors, up=UP[up], **details)
+        note(f"wrote {report}")
+    if picture is not None:
+        from gmds.pictures import write_picture
+
+        first = None if errors is None else errors[0]
+        tell_written(picture, write_picture(picture, answer, first, up=UP[up], **details))

@@ -1,0 +1,66 @@
+// Where points of a surface are on the screen, and which triangle is in front there.
+"use strict";
+
+const FIELD = Math.PI / 4; // of view, from bottom to top, as plotly's perspective has it
+
+const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const xyz = (p) => [p.x, p.y, p.z];
+const named = (p) => ({ x: p[0], y: p[1], z: p[2] });
+
+function unit(a) {
+  const length = Math.sqrt(dot(a, a)) || 1;
+  return a.map((c) => c / length);
+}
+
+// turned by an angle about a unit axis (Rodrigues)
+function turned(p, axis, angle) {
+  const [c, s] = [Math.cos(angle), Math.sin(angle)];
+  const [along, aside] = [dot(p, axis) * (1 - c), cross(axis, p)];
+  return p.map((value, k) => value * c + aside[k] * s + axis[k] * along);
+}
+
+// right, up and backward axis of a camera of plotly, its place, and the size of one unit at distance one, in pixels
+function lens(camera, width, height) {
+  const eye = xyz(camera.eye);
+  const back = unit(minus(eye, xyz(camera.center || { x: 0, y: 0, z: 0 })));
+  const right = unit(cross(xyz(camera.up), back));
+  return { eye, right, up: cross(back, right), back, width, height, focal: height / 2 / Math.tan(FIELD / 2) };
+}
+
+// x and y in pixels from the upper left corner, and the depth along the line of sight
+function project(lensNow, p) {
+  const { eye, right, up, back, width, height, focal } = lensNow;
+  const d = minus(p, eye);
+  const depth = -dot(d, back);
+  return [width / 2 + (focal * dot(d, right)) / depth, height / 2 - (focal * dot(d, up)) / depth, depth];
+}
+
+function projectAll(lensNow, positions) {
+  const shown = new Float64Array(positions.length);
+  for (let i = 0; i < positions.length; i += 3) {
+    shown.set(project(lensNow, [positions[i], positions[i + 1], positions[i + 2]]), i);
+  }
+  return shown;
+}
+
+// the triangle in front at (x, y), with the corner that weighs most there; null beside the surface
+function front(shown, faces, x, y) {
+  let best = null;
+  for (let f = 0; f < faces.length; f += 3) {
+    const [a, b, c] = [3 * faces[f], 3 * faces[f + 1], 3 * faces[f + 2]];
+    const [ax, ay] = [shown[a], shown[a + 1]];
+    const [ux, uy, vx, vy] = [shown[b] - ax, shown[b + 1] - ay, shown[c] - ax, shown[c + 1] - ay];
+    const area = ux * vy - uy * vx;
+    if (area === 0) continue;
+    const [px, py] = [x - ax, y - ay];
+    const [v, w] = [(px * vy - py * vx) / area, (ux * py - uy * px) / area];
+    if (v < 0 || w < 0 || v + w > 1) continue;
+    const near = (1 - v - w) / shown[a + 2] + v / shown[b + 2] + w / shown[c + 2]; // linear on the screen
+    if (near <= 0 || (best && near <= best.near)) continue;
+    const weights = [(1 - v - w) / shown[a + 2], v / shown[b + 2], w / shown[c + 2]];
+    best = { near, depth: 1 / near, vertex: faces[f + weights.indexOf(Math.max(...weights))] };
+  }
+  return best;
+}
