@@ -12,6 +12,7 @@ import numpy as np
 import gmds
 from geodesics import Mesh, SurfacePoints, read_mesh, write_mesh
 from gmds import Correspondence
+from gmds.appearance import Look, write_look
 from gmds.landmark_files import Landmarks, write_landmarks
 from gmds.matching import SAMPLES
 from gmds.shapes import Figure, quadruped, truth
@@ -29,8 +30,9 @@ def small_pair() -> tuple[Figure, Figure, SurfacePoints]:
 def write_files(folder: Path) -> None:
     """dog.ply, wolf.off, the true map between them, landmarks, values, a folder of meshes and a benchmark."""
     dog, wolf, true = small_pair()
-    write_mesh(dog, folder / "dog.ply")
-    write_mesh(wolf, folder / "wolf.off")
+    exact = [Mesh(mesh.vertices.astype(np.float32), mesh.faces) for mesh in (dog, wolf)]  # the same in all formats
+    write_mesh(exact[0], folder / "dog.ply")
+    write_mesh(exact[1], folder / "wolf.off")
     source, target = read_mesh(folder / "dog.ply"), read_mesh(folder / "wolf.off")
     points = SurfacePoints(target, true.face, true.barycentric)
     Correspondence.from_points(source, points).save(folder / "map.npz")
@@ -42,7 +44,20 @@ def write_files(folder: Path) -> None:
     write_mesh(quadruped(n_vertices=3000), folder / "scan.ply")
     np.savetxt(folder / "heights.csv", target.vertices[:, 2])
     (folder / "parts.txt").write_text("\n".join(np.where(target.vertices[:, 2] > 1, "upper", "lower")))
+    np.save(folder / "bones.npy", np.random.default_rng(0).random((target.n_vertices, 4)))
+    _write_looks(folder, target)
     _write_collections(folder)
+
+
+def _write_looks(folder: Path, target: Mesh) -> None:
+    """wolf.glb with colours, wolf.obj with texture coordinates of wolf.png."""
+    from PIL import Image
+
+    low, high = target.vertices.min(axis=0), target.vertices.max(axis=0)
+    place = (target.vertices - low) / (high - low)
+    write_look(folder / "wolf.glb", target, Look(np.rint(255 * place).astype(np.uint8)))
+    image = Image.new("RGB", (8, 8), (200, 120, 40))
+    write_look(folder / "wolf.obj", target, Look(uv=place[target.faces][..., [0, 2]], image=image))
 
 
 def _write_landmarks(folder: Path, source: Mesh, target: Mesh, vertices: Any) -> None:

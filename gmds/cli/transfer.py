@@ -29,7 +29,7 @@ TOLD = {
 }
 
 
-@click.command(cls=Command, short_help="Carry values, colours or a texture from the target of a map to its source.")
+@click.command(cls=Command, short_help="Carry values, colours or a texture along a map.")
 @click.argument("map_file", metavar="MAP", type=FILE)
 @click.option("--source", required=True, type=FILE, help="Mesh the map starts on, which gets the values.")
 @click.option("--target", required=True, type=FILE, help="Mesh the map ends on, which has them.")
