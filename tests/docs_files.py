@@ -28,7 +28,7 @@ def small_pair() -> tuple[Figure, Figure, SurfacePoints]:
 
 
 def write_files(folder: Path) -> None:
-    """dog.ply, wolf.off, the true map between them, landmarks, values, a folder of meshes and a benchmark."""
+    """dog.ply, wolf.off, the true map between them, landmarks, values, looks, a folder of meshes and a benchmark."""
     dog, wolf, true = small_pair()
     exact = [Mesh(mesh.vertices.astype(np.float32), mesh.faces) for mesh in (dog, wolf)]  # the same in all formats
     write_mesh(exact[0], folder / "dog.ply")
@@ -44,20 +44,21 @@ def write_files(folder: Path) -> None:
     write_mesh(quadruped(n_vertices=3000), folder / "scan.ply")
     np.savetxt(folder / "heights.csv", target.vertices[:, 2])
     (folder / "parts.txt").write_text("\n".join(np.where(target.vertices[:, 2] > 1, "upper", "lower")))
-    np.save(folder / "bones.npy", np.random.default_rng(0).random((target.n_vertices, 4)))
+    np.save(folder / "bones.npy", np.random.default_rng(0).dirichlet(np.ones(4), target.n_vertices))
     _write_looks(folder, target)
     _write_collections(folder)
 
 
-def _write_looks(folder: Path, target: Mesh) -> None:
-    """wolf.glb with colours, wolf.obj with texture coordinates of wolf.png."""
+def _write_looks(folder: Path, wolf: Mesh) -> None:
+    """The wolf with colours, and with a texture of two charts."""
     from PIL import Image
 
-    low, high = target.vertices.min(axis=0), target.vertices.max(axis=0)
-    place = (target.vertices - low) / (high - low)
-    write_look(folder / "wolf.glb", target, Look(np.rint(255 * place).astype(np.uint8)))
-    image = Image.new("RGB", (8, 8), (200, 120, 40))
-    write_look(folder / "wolf.obj", target, Look(uv=place[target.faces][..., [0, 2]], image=image))
+    colours = np.full((wolf.n_vertices, 3), 120, dtype=np.uint8)
+    write_look(folder / "wolf.ply", wolf, Look(colours))
+    corners = wolf.vertices[wolf.faces]
+    uv = 0.1 * corners[..., [0, 2]] + np.where(corners[..., 1].mean(axis=1) < 0, 0.5, 0.0)[:, None, None]
+    for name in ("wolf.obj", "wolf.glb"):
+        write_look(folder / name, wolf, Look(uv=uv, image=Image.new("RGB", (8, 8), (200, 150, 90))))
 
 
 def _write_landmarks(folder: Path, source: Mesh, target: Mesh, vertices: Any) -> None:

@@ -50,7 +50,7 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
       gmds transfer map.npz --source dog.ply --target wolf.off --values heights.csv -o carried.csv
       gmds transfer map.npz --source dog.ply --target wolf.off --values parts.txt --labels -o parts.vtp
       gmds transfer map.npz --source dog.ply --target wolf.off --values bones.npy --kind weights -o skin.npy
-      gmds transfer map.npz --source dog.ply --target wolf.glb -o dog.glb
+      gmds transfer map.npz --source dog.ply --target wolf.off --look wolf.glb -o dog.glb
       gmds transfer map.npz --source dog.ply --target wolf.obj --texture wolf.png -o dog.obj
 
     \b
