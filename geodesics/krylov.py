@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 _LONGEST = 6  # steps without a look back
+_SHARE = 3  # of the capacity, one part is as a rule enough
 
 
 class KrylovBasis:
@@ -25,7 +26,7 @@ class KrylovBasis:
         """Columns whose images are known."""
         self._block, self._capacity, self._loss = block, capacity, loss
         self._random = np.random.default_rng(0)
-        self._columns = np.empty((n, capacity + block), order="F")
+        self._columns = np.empty((n, capacity // _SHARE + 2 * block), order="F")
         self._columns[:, :block] = np.linalg.qr(self._random.standard_normal((n, block)))[0]
         self._projected = np.zeros((capacity + block, capacity + block))  # block tridiagonal, lower half
         self._link = np.zeros((block, block))
@@ -44,6 +45,10 @@ class KrylovBasis:
         """Take in the image (n, b) of the last block; it is overwritten."""
         b, known = self._block, self.size
         self.size += b
+        if self.size + b > self._columns.shape[1]:
+            wider = np.empty((len(image), self._capacity + b), order="F")
+            wider[:, : self.size] = self._columns[:, : self.size]
+            self._columns = wider
         length = np.linalg.norm(image, axis=0).max()
         near = self._columns[:, max(known - b, 0) : self.size]
         overlap = _removed(image, near)

@@ -14,6 +14,7 @@ from geodesics import Mesh, Metric, eigenpairs, embedded, galerkin_mass, lumped_
 from geodesics._sparse import Inverse, factorised
 from geodesics.dissection import nested_dissection
 from geodesics.errors import EigensolverFailed
+from geodesics.krylov import KrylovBasis
 from geodesics.lanczos import smallest_eigenpairs
 from geodesics.topology import boundary_vertices
 
@@ -266,3 +267,15 @@ def test_lanczos_on_a_matrix_with_few_distinct_eigenvalues():
     values, vectors = smallest_eigenpairs((sp.block_diag(parts) + chain).tocsc(), 250, shift=1e-2)
     np.testing.assert_allclose(values, np.repeat([0, 1], [200, 50]), atol=1e-7)
     np.testing.assert_allclose(vectors.T @ vectors, np.eye(250), atol=1e-9)
+
+
+def test_a_krylov_basis_stays_orthonormal_when_it_outgrows_its_first_room():
+    matrix = np.diag(np.linspace(0, 1, 300)) + 1e-3 * np.ones((300, 300))
+    krylov = KrylovBasis(300, 4, 120, 1e-9)
+    while krylov.room():
+        krylov.grow(matrix @ krylov.last)
+    assert krylov.size == 120
+    values, coordinates, rest = krylov.ritz(0, 5)
+    vectors = krylov.vectors(values, coordinates, rest)
+    np.testing.assert_allclose(vectors.T @ vectors, np.eye(5), atol=1e-9)
+    np.testing.assert_allclose(values, np.linalg.eigvalsh(matrix)[::-1][:5], atol=1e-4)
