@@ -43,7 +43,7 @@ def write_files(folder: Path) -> None:
         write_mesh(Mesh(mesh.vertices * [-1, -1, 1], mesh.faces), folder / name)
     write_mesh(quadruped(n_vertices=3000), folder / "scan.ply")
     np.savetxt(folder / "heights.csv", target.vertices[:, 2])
-    (folder / "parts.txt").write_text("\n".join(np.where(target.vertices[:, 2] > 1, "upper", "lower")))
+    (folder / "parts.txt").write_text("\n".join(np.where(target.vertices[:, 2] > 1, "1", "2")))
     np.save(folder / "bones.npy", np.random.default_rng(0).dirichlet(np.ones(4), target.n_vertices))
     _write_looks(folder, target)
     _write_collections(folder)
