@@ -130,7 +130,7 @@ class PairTimeout(Exception):
 class RenderingError(RuntimeError):
     """Nothing can be drawn by the renderer that was asked for; the message says why and what to do."""
 
-    code = "E506"
+    code = "E510"
 
     def __str__(self) -> str:
         return f"{self.code}: {super().__str__()}"

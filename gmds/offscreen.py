@@ -25,7 +25,7 @@ WORKER = Path(__file__).with_name("offscreen_worker.py")
 def offscreen(shots: Sequence[Shot]) -> list[Array]:
     """Images (height, width, 3) in [0, 1] of the shots, drawn by pyvista in another process.
 
-    Raises `RenderingError` (E506), which says what to do, where pyvista is not installed or can not draw.
+    Raises `RenderingError` (E510), which says what to do, where pyvista is not installed or can not draw.
     """
     if not _installed():
         raise RenderingError("pyvista is not installed; install it with: pip install 'gmds[viz]'")

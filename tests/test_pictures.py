@@ -95,7 +95,7 @@ def test_a_driver_that_fails_is_told_and_the_picture_drawn_all_the_same(
     monkeypatch.setattr(gmds.offscreen, "PATIENCE", 1 if "sleep" in code else 60)
     monkeypatch.setattr(gmds.offscreen, "_installed", lambda: True)
     why = answer.picture(tmp_path / "map.png", pixels=60)
-    assert WORKERS[code] in why and "E506" in why and (tmp_path / "map.png").exists()
+    assert WORKERS[code] in why and "E510" in why and (tmp_path / "map.png").exists()
     with pytest.raises(RenderingError, match=WORKERS[code]):
         answer.picture(tmp_path / "other.png", pixels=60, renderer=offscreen)
     assert not (tmp_path / "other.png").exists()
