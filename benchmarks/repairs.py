@@ -2,10 +2,10 @@
 
     GMDS_DATA=... python benchmarks/repairs.py
 
-Every mesh of tosca_hires, tosca_nonrigid_3k and shrec20 goes through `repair(mesh, cut=True, largest=True)`. It passes when
-no warning is left, but for vertices at equal positions (W219) where edges of more than two faces were cut; when the way
-back leads to the same positions; and when the metric, ten eigenpairs and a march from one vertex are finite. Writes
-results/repairs.csv and results/repairs.md.
+Every mesh of tosca_hires, tosca_nonrigid_3k and shrec20 goes through `repair(mesh, cut=True, largest=True)`. It passes
+when no warning is left, but for vertices at equal positions (W219) where edges of more than two faces were cut; when
+the way back leads to the same positions; and when the metric, ten eigenpairs and a march from one vertex are finite.
+Writes results/repairs.csv and results/repairs.md.
 """
 
 from __future__ import annotations

@@ -10,7 +10,6 @@ import hashlib
 import json
 import os
 import zipfile
-import zlib
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, TypeVar
@@ -22,6 +21,7 @@ from geodesics.errors import FormatError
 from geodesics.io import atomic_write
 from geodesics.mesh import Mesh
 from gmds.errors import MapArray, MapMembers, MapMismatch, MapVersion, PickledMember
+from gmds.npz_file import DAMAGED, PickledArray, opened, read_header, read_member
 
 FORMAT, VERSION = "gmds-map", 1
 DTYPES = {"face": "<i4", "barycentric": "<f8", "vertex": "<i8", "valid": "|b1", "distortion": "<f4", "meta": "|u1"}
@@ -61,16 +61,13 @@ def read_map(path: str | os.PathLike[str], source: Mesh, target: Mesh) -> tuple[
 
 def _opened(path: Path, read: Callable[[zipfile.ZipFile], T]) -> T:
     """What is read from the archive."""
-    if path.exists() and not path.is_file():  # opening a pipe would wait for ever
-        raise OSError(f"{path} is not a regular file")
-    with path.open("rb") as stream:
+    with opened(path) as stream:
         try:
             with zipfile.ZipFile(stream) as archive:
                 return read(archive)
         except FormatError:
             raise
-        except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, OSError, ValueError, KeyError) as error:
-            # what zipfile raises on bytes that were damaged after the archive was written
+        except DAMAGED as error:
             raise MapMembers(f"{path} is not a readable npz archive ({error}); write it again with save()") from error
 
 
@@ -111,23 +108,20 @@ def _member(path: Path, archive: zipfile.ZipFile, name: str, shape: tuple[int, .
     """One array, its header checked before any of its bytes are taken: a lying header costs nothing."""
     with archive.open(f"{name}.npy") as stream:
         try:
-            major, _ = np.lib.format.read_magic(stream)
-            read = np.lib.format.read_array_header_1_0 if major == 1 else np.lib.format.read_array_header_2_0
-            found, fortran, dtype = read(stream)
+            found, _, dtype = read_header(stream)
+        except PickledArray as error:
+            raise PickledMember(f"{path}: member {name} holds {error}") from error
         except ValueError as error:
-            raise MapArray(f"{path}: member {name} has no readable header ({error})") from error
-        if dtype.hasobject:
-            raise PickledMember(f"{path}: member {name} holds pickled objects, which are never loaded")
-        limit = (MAX_META_BYTES,) if shape is None else shape
-        fits = found == limit or (shape is None and len(found) == 1 and 0 <= found[0] <= MAX_META_BYTES)
-        if dtype != np.dtype(DTYPES[name]) or not fits:
-            wanted = "(at most 16 MB,)" if shape is None else shape
-            raise MapArray(f"{path}: member {name} is {dtype} {found}, expected {np.dtype(DTYPES[name])} {wanted}")
-        size = int(np.prod(found)) * dtype.itemsize
-        content = stream.read(size + 1)
-    if len(content) != size:
-        raise MapArray(f"{path}: member {name} does not have the {size} bytes its header declares")
-    return np.frombuffer(content, dtype=dtype).reshape(found, order="F" if fortran else "C")
+            raise MapArray(f"{path}: member {name} has {error}") from error
+    limit = (MAX_META_BYTES,) if shape is None else shape
+    fits = found == limit or (shape is None and len(found) == 1 and found[0] <= MAX_META_BYTES)
+    if dtype != np.dtype(DTYPES[name]) or not fits:
+        wanted = "(at most 16 MB,)" if shape is None else shape
+        raise MapArray(f"{path}: member {name} is {dtype} {found}, expected {np.dtype(DTYPES[name])} {wanted}")
+    try:
+        return read_member(archive, f"{name}.npy")
+    except ValueError as error:
+        raise MapArray(f"{path}: member {name}: {error}") from error
 
 
 def _parse_meta(path: Path, raw: NDArray[Any]) -> dict[str, Any]:

@@ -9,8 +9,6 @@ such a self-map. Numbers keep all their bits: surfaces from files are matched as
 from __future__ import annotations
 
 import os
-import zipfile
-import zlib
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +20,7 @@ from geodesics.io import atomic_write
 from geodesics.sampling import Cells
 from gmds.errors import SurfaceFileError
 from gmds.geometry import Geometry
+from gmds.npz_file import read_npz
 from gmds.pair import outline, reversing
 from gmds.refinement import CARRIERS, GOALS
 from gmds.surface import Surface, View
@@ -41,12 +40,10 @@ def write_surface(path: str | os.PathLike[str], surface: Surface) -> None:
 def read_surface(path: str | os.PathLike[str]) -> Surface:
     """The surface in a file. Raises `SurfaceFileError` (E215) when it is not whole, `OSError` when it is not there."""
     path = Path(path)
-    with path.open("rb") as stream:
-        try:
-            with np.load(stream, allow_pickle=False) as archive:
-                return _surface(dict(archive))
-        except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, OSError, ValueError, KeyError) as error:
-            raise SurfaceFileError(f"{path} is not a readable surface ({error}); remove it") from error
+    try:
+        return _surface(read_npz(path))
+    except (ValueError, KeyError, IndexError, TypeError) as error:
+        raise SurfaceFileError(f"{path} is not a readable surface ({error}); remove it") from error
 
 
 def _arrays(surface: Surface) -> Arrays:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import warnings
 import zipfile
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +14,7 @@ from geodesics.errors import FormatError
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
 from gmds.correspondence import Correspondence
+from gmds.npz_file import DAMAGED, opened, read_npz
 
 Indices = NDArray[np.int64]
 
@@ -73,7 +76,9 @@ def missing_landmarks(source_path: Path, target_path: Path) -> Indices:
 def read_vts(path: Path) -> Indices:
     """Vertex indices (k,) from a .vts file, one 1-based index a line; returned 0-based. Raises `BadTruth`."""
     try:
-        indices = np.array([int(word) for word in path.read_text(encoding="utf-8").split()], dtype=np.int64) - 1
+        with opened(path) as stream:
+            words = stream.read().decode("utf-8").split()
+        indices = np.array([int(word) for word in words], dtype=np.int64) - 1
     except (ValueError, OverflowError) as error:
         raise BadTruth(f"{path} must hold one whole number a line ({error})") from error
     if len(indices) == 0 or indices.min() < 0:
@@ -84,12 +89,10 @@ def read_vts(path: Path) -> Indices:
 def read_truth_npz(path: Path) -> tuple[Indices, Indices, Indices | None]:
     """`src`, `gt` and `gt_sym` (None when absent), each (k,) 0-based, from a truth npz. Raises `BadTruth`."""
     try:
-        with np.load(path, allow_pickle=False) as archive:
-            wanted = [np.asarray(archive[key], dtype=np.int64) for key in ("src", "gt")]
-            flipped = np.asarray(archive["gt_sym"], dtype=np.int64) if "gt_sym" in archive.files else None
-    except (KeyError, ValueError, EOFError, OSError) as error:
-        if isinstance(error, OSError) and error.errno is not None:
-            raise
+        arrays = read_npz(path)
+        wanted = [whole_numbers(arrays[key]) for key in ("src", "gt")]
+        flipped = whole_numbers(arrays["gt_sym"]) if "gt_sym" in arrays else None
+    except (KeyError, ValueError) as error:
         raise BadTruth(f"{path} must hold whole-number arrays src and gt ({error})") from error
     if any(
         array.shape != wanted[0].shape or array.ndim != 1
@@ -97,6 +100,15 @@ def read_truth_npz(path: Path) -> tuple[Indices, Indices, Indices | None]:
     ):
         raise BadTruth(f"{path}: src, gt and gt_sym must be one-dimensional and equally long")
     return wanted[0], wanted[1], flipped
+
+
+def whole_numbers(array: NDArray[Any]) -> Indices:
+    """Indices from 0 as int64. Raises `ValueError` for fractions, negative numbers and anything that is no number."""
+    if array.dtype.kind not in "iuf" or not (np.isfinite(array) & (array >= 0) & (array < 2**62)).all():
+        raise ValueError(f"indices must be numbers from 0 on, not {array.dtype} with others")
+    if (array != np.floor(array)).any():
+        raise ValueError("indices must be whole numbers")
+    return np.asarray(array, dtype=np.int64)
 
 
 def read_landmarks_mat(path: Path) -> tuple[Indices, Indices, Indices, NDArray[np.float64]]:
@@ -109,14 +121,19 @@ def read_landmarks_mat(path: Path) -> tuple[Indices, Indices, Indices, NDArray[n
     if not path.is_file():
         raise FileNotFoundError(f"{path} does not exist")
     try:
-        content = loadmat(path)
-        ids, vertices, points = (content[key] for key in ("points", "verts", "baryc"))
-        ids, vertices = ids.ravel().astype(np.int64), vertices.ravel().astype(np.int64) - 1
-        faces, weights = points[:, 0].astype(np.int64) - 1, np.maximum(points[:, 1:4].astype(np.float64), 0)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            content = loadmat(path)
+        ids, vertices, points = (np.asarray(content[key]) for key in ("points", "verts", "baryc"))
+        ids, vertices, faces = (whole_numbers(column.ravel()) for column in (ids, vertices - 1, points[:, 0] - 1))
+        weights = np.maximum(points[:, 1:4].astype(np.float64), 0)
+        total = weights.sum(axis=1, keepdims=True)
+        if not (len(ids) == len(vertices) == len(faces) and (total > 0).all() and np.isfinite(total).all()):
+            raise ValueError("they have other lengths, or weights that do not add up to anything")
     except Exception as error:  # on damaged bytes scipy raises a dozen different types
         raise BadTruth(f"{path} must be a MATLAB file with points, verts and baryc ({error})") from error
     keep = ~((ids == HUMP) & _is_camel(path))
-    return ids[keep], vertices[keep], faces[keep], weights[keep] / weights[keep].sum(axis=1, keepdims=True)
+    return ids[keep], vertices[keep], faces[keep], weights[keep] / total[keep]
 
 
 def points_at(mesh: Mesh, indices: Indices | None) -> SurfacePoints | None:
@@ -129,7 +146,9 @@ def _is_camel(path: Path) -> bool:
 
 
 def _is_map(path: Path) -> bool:
-    if not zipfile.is_zipfile(path):
-        return False
-    with zipfile.ZipFile(path) as archive:
-        return "barycentric.npy" in archive.namelist()
+    with opened(path) as stream:
+        try:
+            with zipfile.ZipFile(stream) as archive:
+                return "barycentric.npy" in archive.namelist()
+        except DAMAGED:
+            return False

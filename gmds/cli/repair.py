@@ -67,7 +67,7 @@ def command(mesh: Path, output: Path, maps: Path | None, as_json: bool, **steps:
         emit({**counts, "notes": [asdict(note) for note in found.notes]}, as_json)
         return
     emit(counts, as_json)
-    for told in found.notes or ["nothing was wrong"]:
+    for told in map(str, found.notes) if found.notes else ["nothing was wrong"]:
         click.echo(told)
 
 

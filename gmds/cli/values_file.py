@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geodesics.errors import FormatError
+from gmds.npz_file import read_npy
 
 KINDS = "biufcU"  # truth values, numbers, words
 
@@ -36,11 +37,10 @@ def read_values(path: Path, count: int, *, labels: bool = False) -> NDArray[Any]
 
 
 def _array(path: Path) -> NDArray[Any]:
-    with path.open("rb") as stream:
-        try:
-            values: NDArray[Any] = np.lib.format.read_array(stream, allow_pickle=False)
-        except (ValueError, EOFError, OSError, SyntaxError) as error:
-            raise BadValuesFile(f"{path} is not a readable .npy array ({error})") from error
+    try:
+        values = read_npy(path)
+    except ValueError as error:
+        raise BadValuesFile(f"{path} is not a readable .npy array ({error})") from error
     if values.dtype.kind not in KINDS:
         raise BadValuesFile(f"{path} holds {values.dtype}; write numbers or words")
     return values
