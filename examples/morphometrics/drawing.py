@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from geodesics import Mesh
 from gmds.rendering import render
-from gmds.views import broadside
+from gmds.views import Direction, broadside
 
 Array = NDArray[np.float64]
 
@@ -18,13 +18,13 @@ BALL = 0.018  # radius, in square roots of the area
 PIXELS = 560
 
 
-def draw(path: Path, mesh: Mesh, places: Array, doubtful: NDArray[np.bool_], title: str) -> None:
-    """A PNG of landmarks (k, 3) on a mesh: blue, or red where they are `doubtful` (k,)."""
+def draw(path: Path, mesh: Mesh, places: Array, doubtful: NDArray[np.bool_], up: Direction) -> None:
+    """A PNG of landmarks (k, 3) on a mesh: blue, or red where they are `doubtful` (k,); its name is the title."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
     shape, colours = _with_balls(mesh, places, doubtful)
-    views = [broadside(mesh, azimuth=azimuth) for azimuth in (30.0, 210.0)]
+    views = [broadside(mesh, up, azimuth=azimuth) for azimuth in (30.0, 210.0)]
     images = [render(shape, colours, rotation=view, pixels=PIXELS) for view in views]
     height, width = max(len(image) for image in images), sum(image.shape[1] for image in images)
     figure = Figure(figsize=(width / 100, (height + 30) / 100), dpi=100)
@@ -43,7 +43,7 @@ def draw(path: Path, mesh: Mesh, places: Array, doubtful: NDArray[np.bool_], tit
             x, y = spots[number] + [columns / 2, rows / 2]
             axis.text(x + 6, y - 6, str(number + 1), fontsize=8, color=DOUBTFUL if doubtful[number] else "black")
         left += columns
-    figure.text(0.5, 1 - 4 / (height + 30), title, ha="center", va="top", parse_math=False)
+    figure.text(0.5, 1 - 4 / (height + 30), path.stem, ha="center", va="top", parse_math=False)
     figure.savefig(path, metadata={"Software": None})
 
 

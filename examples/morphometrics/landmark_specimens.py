@@ -24,10 +24,12 @@ from gmds.landmark_files import Landmarks, read_landmarks
 from gmds.landmark_transfer import carry_landmarks
 from gmds.shapes import quadruped
 from gmds.surface import Surface, measure
+from gmds.views import Direction
 
 Array = NDArray[np.float64]
 
 ENDINGS = (".ply", ".obj", ".off", ".stl", ".glb", ".vert")
+UP: dict[str, Direction] = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 DOUBTFUL = 0.3  # confidence of a landmark below which it needs a look
 FAR = 3.0  # times the median distance from the mean shape beyond which a specimen does
 
@@ -109,8 +111,10 @@ def _placed(one: Specimen) -> Iterator[tuple[list[float], bool]]:
     return zip(one.positions.tolist(), one.valid.tolist(), strict=True)
 
 
-def run(specimens: Iterator[tuple[str, Mesh]], template: Mesh, marks: Landmarks, out: Path) -> list[Specimen]:
-    """Everything of a collection, into a folder."""
+def run(
+    specimens: Iterator[tuple[str, Mesh]], template: Mesh, marks: Landmarks, out: Path, up: Direction = UP["z"]
+) -> list[Specimen]:
+    """Everything of a collection, into a folder; `up` is up in the pictures."""
     (out / "pictures").mkdir(parents=True, exist_ok=True)
     surface, done, to_look_at = measure(template), [], []
     for name, mesh in specimens:
@@ -119,7 +123,7 @@ def run(specimens: Iterator[tuple[str, Mesh]], template: Mesh, marks: Landmarks,
         except (MeshError, ArithmeticError) as error:
             to_look_at.append((name, str(error)))
             continue
-        drawing.draw(out / "pictures" / f"{name}.png", mesh, done[-1].positions, done[-1].doubtful, name)
+        drawing.draw(out / "pictures" / f"{name}.png", mesh, done[-1].positions, done[-1].doubtful, up)
         print(f"{name}: {done[-1].status.name}, {int(done[-1].doubtful.sum())} of {len(marks)} landmarks doubtful")
     if done:
         to_look_at += reasons(done, marks, write_tables(out, done, marks))
@@ -175,6 +179,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--template", type=Path, help="the mesh that has landmarks")
     parser.add_argument("--landmarks", type=Path, help="its landmarks: .csv, .mrk.json, .fcsv, .tps, .pts or .vts")
     parser.add_argument("-o", "--output", type=Path, default=Path("morphometrics"), help="folder for the results")
+    parser.add_argument("--up", choices=UP, default="z", help="the axis of the meshes that points up in the pictures")
     given = parser.parse_args(arguments)
     if given.folder is None:
         template, marks, others = built_in()
@@ -183,7 +188,7 @@ def main(arguments: list[str] | None = None) -> None:
     if given.template is None or given.landmarks is None:
         parser.error("a folder needs --template and --landmarks")
     specimens = in_folder(given.folder, given.template)
-    run(specimens, read_mesh(given.template), read_landmarks(given.landmarks), given.output)
+    run(specimens, read_mesh(given.template), read_landmarks(given.landmarks), given.output, UP[given.up])
 
 
 if __name__ == "__main__":
