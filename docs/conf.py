@@ -43,7 +43,14 @@ release = version = gmds.__version__
 
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx_copybutton"]
 root_doc = "docs/index"
-include_patterns = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/**.md", "benchmarks/results/*.md"]
+include_patterns = [
+    "README.md",
+    "CONTRIBUTING.md",
+    "CHANGELOG.md",
+    "docs/**.md",
+    "benchmarks/results/*.md",
+    "examples/**.md",
+]
 exclude_patterns = ["docs/paper/**"]
 myst_heading_anchors = 3
 

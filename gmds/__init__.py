@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from gmds.evaluation import error_curve as error_curve
     from gmds.evaluation import geodesic_error as geodesic_error
     from gmds.evaluation import summary as summary
+    from gmds.landmarks import SoftLandmarks as SoftLandmarks
     from gmds.losses import Huber as Huber
     from gmds.losses import LeastSquares as LeastSquares
     from gmds.losses import Minimax as Minimax
@@ -48,6 +49,7 @@ _NAMES = {
     "correspondence": ("Candidate", "Correspondence", "MatchStatus"),
     "deformations": ("bending", "global_scale", "local_scaling", "noise", "remeshing"),
     "evaluation": ("ErrorSummary", "error_curve", "geodesic_error", "summary"),
+    "landmarks": ("SoftLandmarks",),
     "losses": ("Huber", "LeastSquares", "Minimax", "Power"),
     "matching": ("match",),
     "morphometry": ("dissimilarity",),

@@ -34,7 +34,6 @@ REPEATS = 2  # more refinements, if each pays
 RETURNS = 2  # registrations there and back
 GAIN = 0.005  # share of the energy by which each must lower it, where parts grew
 SPECTRAL_GAIN = 0.08  # and by which eigenfunctions must: more where nothing grew, less across species
-CONGRUENT = 1e-9  # elastic energy below which a map is a congruence up to rounding
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +84,7 @@ def finished(best: Embedded, progress: Callable[[float], None] | None = None) ->
     well, and what both say is brought together.
     """
     pair, now = best.pair, best.deformation
-    if now.residuals.energy < CONGRUENT:
+    if now.residuals.is_congruence:
         return best
     regular = pair.source.regular, pair.target.regular
     tell = progress or (lambda share: None)
@@ -99,21 +98,21 @@ def finished(best: Embedded, progress: Callable[[float], None] | None = None) ->
         return registered(pair, SurfacePoints.at_vertices(pair.target.mesh, images), REFINE)
 
     way, trial = keeping_area, in_space(now.points)
-    if trial.residuals.energy < now.residuals.energy:
+    if trial.residuals.cost < now.residuals.cost:
         way, now = in_space, trial
     for _ in range(REPEATS):
         trial = way(now.points)
-        if trial.residuals.energy >= now.residuals.energy:
+        if trial.residuals.cost >= now.residuals.cost:
             break
         now = trial
     tell(0.3)
     trial = settled(*pair.geometries, now.y, SETTLE, growing=True, partial=True, views=regular)
-    isometric = trial.residuals.energy < (1 - SPECTRAL_GAIN) * now.residuals.energy
+    isometric = trial.residuals.cost < (1 - SPECTRAL_GAIN) * now.residuals.cost
     now, views = (trial, regular) if isometric else (now, None)
     for number in range(RETURNS):
         tell(0.4 + 0.6 * number / RETURNS)
         trial = both_ways(*pair.geometries, now, views)
-        if not isometric and trial.residuals.energy >= (1 - GAIN) * now.residuals.energy:
+        if not isometric and trial.residuals.cost >= (1 - GAIN) * now.residuals.cost:
             break
         now = trial
     weighed = evidence(pair, best.views, now.points, best.evidence.outlines, now.residuals)
@@ -150,7 +149,7 @@ def registered(
     source, target = pair.geometries
     y = points.positions
     same = as_it_is(source, target, y, growing=True, partial=True)
-    if same.residuals.energy < CONGRUENT:
+    if same.residuals.is_congruence:
         return replace(same, points=points)
     return register(source, target, y, stages, growing=True, partial=True)
 

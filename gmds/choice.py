@@ -20,7 +20,6 @@ Index = NDArray[np.int64]
 FUNCTIONS = 40
 SAMPLES = 500  # between which the stress is taken
 LEAST_FOLDED = 1e-3  # share of the area, twice: so much is folded over at a vertex of any triangulation
-HIT = 0.02  # square roots of the area within which a landmark counts as hit
 
 
 @dataclass(frozen=True)
@@ -51,12 +50,12 @@ class Evidence:
 
     @property
     def loss(self) -> float:
-        """Minus the log-likelihood up to a constant: the deformations, the landmarks, what is folded over.
+        """Minus the log-likelihood up to a constant: the deformations, with what they miss, and what is folded over.
 
         Where there is a boundary, and parts may be missing, parts that grow could hide it: there the outlines decide.
         Elsewhere a map that swaps two legs, and not what is between them, folds that.
         """
-        loss = sum(residuals.loss for residuals in self.outlines) + float(np.log(1 + self.landmark_error / HIT))
+        loss = sum(residuals.loss for residuals in self.outlines)
         if not self.closed:
             return loss
         return loss + self.whole.loss + self.fold_loss
@@ -80,10 +79,7 @@ def evidence(
     here, there = (euclidean_distances(rows, rows) for rows in (ours[samples], points[samples].interpolate(theirs)))
     normals = points.interpolate(pair.geometries[1].normals)
     score = orientation_score(pair.source.mesh, pair.target.mesh, points.positions, normals)
-    miss = 0.0
-    if pair.known is not None:
-        place = pair.target.mesh.vertices[pair.known[1]]
-        miss = float(np.linalg.norm(points[pair.known[0]].positions - place, axis=1).mean())
+    miss = 0.0 if pair.known is None else pair.known.miss(points, pair.target.mesh.vertices)
     return Evidence(
         outline=outlines[0],
         outline_back=outlines[1],

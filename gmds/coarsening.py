@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from geodesics import SurfacePoints
 from geodesics.closest import closest_on_triangles
@@ -15,6 +14,7 @@ from gmds.answer import on_original
 from gmds.correspondence import Candidate, Correspondence
 from gmds.derived import derived_once
 from gmds.geometry import Geometry, decimated
+from gmds.known import Known, Marks
 from gmds.orientation import orientation_score
 from gmds.surface import Surface, measure
 
@@ -55,16 +55,15 @@ class Carrier:
         copies = coarse(source), coarse(target)
         return None if copies == (source, target) else cls(source, target, copies)
 
-    def landmarks(self, known: tuple[Index, Index]) -> tuple[Index, Index]:
-        """Corresponding vertices (l,) of the surfaces as those of their copies that are nearest, none of them twice."""
+    def landmarks(self, known: Known) -> Known:
+        """Corresponding points of the surfaces as those of their copies that are closest."""
         ours, theirs = (
-            cKDTree(places).query(surface.mesh.vertices[vertices])[1]
-            for surface, places, vertices in zip((self.source, self.target), self._places, known, strict=True)
+            Marks.closest(marks.positions(surface.mesh.vertices), places, copy.mesh.faces)
+            for surface, copy, places, marks in zip(
+                (self.source, self.target), self.copies, self._places, (known.source, known.target), strict=True
+            )
         )
-        rows = np.stack([ours, theirs], axis=1)
-        for column in range(2):
-            rows = rows[np.sort(np.unique(rows[:, column], return_index=True)[1])]
-        return rows[:, 0], rows[:, 1]
+        return Known(ours, theirs, known.tolerance)
 
     def carried(self, found: Correspondence) -> Correspondence:
         """A map between the copies as one between the whole surfaces.

@@ -25,6 +25,7 @@ REQUIRED = (
     "threadpoolctl>=3.2",
     "click>=8.2",
     "rich>=13",
+    "tomli-w>=1.0",
 )
 EXTRAS = {
     "viz": (
@@ -34,7 +35,7 @@ EXTRAS = {
     "repair": (("pymeshlab>=2023.12",), "closing holes and remeshing in `gmds repair`"),
     "batch": (("distributed>=2024.1",), "`gmds batch`"),
 }
-MODULES = {"libigl": "igl"}  # modules that are not called as their package
+MODULES = {"libigl": "igl", "tomli-w": "tomli_w"}  # modules that are not called as their package
 PATIENCE = 120  # seconds that an import may take
 
 State = Literal["ok", "absent", "problem"]
@@ -51,14 +52,15 @@ class Finding:
 
 
 def diagnose() -> list[Finding]:
-    """All findings: Python, the packages, the optional parts, the kernels' folder and the threads."""
+    """All findings: Python, the packages, the optional parts, drawing, the kernels' folder and the threads."""
     import gmds
 
     system = f"{platform.system()} {platform.machine()}"
     findings = [Finding("gmds", "ok", gmds.__version__), _python(), Finding("system", "ok", system)]
     findings += [_package(needed, "pip install --upgrade gmds") for needed in REQUIRED]
+    works = all(finding.state == "ok" for finding in findings)
     findings += [_extra(name) for name in EXTRAS]
-    return [*findings, _kernels(), _threads()]
+    return [*findings, _drawing(), _kernels(), _threads()] if works else findings  # these use what is needed
 
 
 def _python() -> Finding:
@@ -95,6 +97,22 @@ def _extra(name: str) -> Finding:
         return Finding(f"extra {name}", "problem", found, broken[0].advice)
     state: State = "ok" if all(part.state == "ok" for part in parts) else "absent"
     return Finding(f"extra {name}", state, found, "" if state == "ok" else f"{advice}, for {purpose}")
+
+
+def _drawing() -> Finding:
+    """Whether pyvista can draw here, tried on a triangle; without it pictures are drawn all the same."""
+    import numpy as np
+
+    from geodesics import Mesh
+    from gmds.errors import RenderingError
+    from gmds.offscreen import offscreen
+    from gmds.rendering import Shot
+
+    try:
+        offscreen([Shot(Mesh(np.eye(3), [[0, 1, 2]]), np.ones((3, 3)), np.eye(3), 32)])
+    except RenderingError as error:
+        return Finding("drawing", "absent", "pictures are drawn without pyvista, which is slower", str(error))
+    return Finding("drawing", "ok", "pyvista draws off screen")
 
 
 def _kernels() -> Finding:

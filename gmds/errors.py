@@ -139,4 +139,4 @@ class RenderingError(RuntimeError):
 class PictureFormat(FormatError):
     """A picture in a format that there is none of; the message lists those that there are."""
 
-    code = "E217"
+    code = "E218"

@@ -16,6 +16,7 @@ from geodesics.delaunay import proper_faces
 from geodesics.threads import cached_property
 from geodesics.topology import boundary_vertices
 from gmds._kernels.closest import closest_on_faces, nearest_around
+from gmds.anchors import Anchors
 from gmds.elasticity import Elasticity
 from gmds.surface import Surface
 
@@ -32,12 +33,14 @@ STEPS = 2  # from vertex to vertex for the closest vertex
 class Geometry:
     """A mesh of unit area, and for each vertex the vertex `origin` (n,) it stands for on the surface it outlines.
 
-    `curvature` (n,): squashed mean curvature, which tells the chest from the back.
+    `curvature` (n,): squashed mean curvature, which tells the chest from the back. `anchors`: what
+    is known of where its points belong on the surface it is registered to.
     """
 
     mesh: Mesh
     origin: Index
     curvature: Array
+    anchors: Anchors | None = None
 
     @classmethod
     def of(cls, surface: Surface) -> Geometry:

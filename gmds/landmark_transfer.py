@@ -53,7 +53,7 @@ def carry_landmarks(answer: Correspondence, landmarks: Landmarks) -> CarriedLand
     """
     on_source = place_on(landmarks.at, answer.source, "source")
     moved = np.zeros(len(landmarks))
-    if landmarks.at.ndim == 2:
+    if landmarks.at.shape[1:] == (3,):
         moved = np.linalg.norm(on_source.positions - landmarks.at, axis=1)
     on_target, valid, distortion = image(answer, on_source)
     return CarriedLandmarks(landmarks.names, on_source, on_target, moved, valid, distortion)

@@ -2,38 +2,52 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from geodesics import Mesh, MeshError, SurfacePoints
 from geodesics.errors import Note
 from gmds.errors import LandmarkError
+from gmds.placed_landmarks import PlacedLandmarks
 
 FARTHEST_LANDMARK = 0.05  # of the diagonal of the bounding box
+TOLERANCE = 0.05  # of soft landmarks
 
 
 def check_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> tuple[SurfacePoints, SurfacePoints]:
     """Corresponding points of both surfaces from what a user gives; raises `LandmarkError` (E300-E305).
 
     `landmarks` is an array (k, 2) of vertex index pairs, or a pair (on source, on target) whose halves are vertex
-    indices (k,), positions in space (k, 3) that are moved to the closest surface point, or `SurfacePoints`.
-    Two nested lists of two indices each are read as two index pairs.
+    indices (k,), positions in space (k, 3) that are moved to the closest surface point, rows (k, 4) of a face and three
+    barycentric weights, or `SurfacePoints`; all of them may stand in `SoftLandmarks`. Two nested lists of two indices
+    each are read as two index pairs.
     """
-    return place_landmarks(landmarks, source, target)[:2]
+    placed = place_landmarks(landmarks, source, target)
+    return placed.on_source, placed.on_target
 
 
-def landmark_vertices(landmarks: Any, source: Mesh, target: Mesh) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The vertices nearest to the landmarks on both sides, (k,) each; raises as `check_landmarks`."""
-    on_source, on_target = check_landmarks(landmarks, source, target)
-    return on_source.nearest_vertices(), on_target.nearest_vertices()
+@dataclass(frozen=True, eq=False)
+class SoftLandmarks:
+    """Landmarks that pull rather than pin, in any form that `check_landmarks` takes.
+
+    `tolerance`, a number or k of them: to within how far each is right, in square roots of the area of the target; 0
+    makes it a hard one. A landmark that is missed by many times its tolerance pulls ever less.
+    """
+
+    landmarks: Any
+    tolerance: ArrayLike = TOLERANCE
 
 
-def place_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> tuple[SurfacePoints, SurfacePoints, list[Note]]:
-    """As `check_landmarks`, with a note (W301) on positions that were moved to the surface, and how far."""
+def place_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> PlacedLandmarks:
+    """As `check_landmarks`, with tolerances, and a note (W301) on positions moved to the surface, and how far."""
     notes: list[Note] = []
     sides = []
+    tolerance: ArrayLike = 0.0
+    if isinstance(landmarks, SoftLandmarks):
+        landmarks, tolerance = landmarks.landmarks, landmarks.tolerance
     for given, mesh, name in zip(_halves(landmarks), (source, target), ("source", "target"), strict=True):
         sides.append(_place(given, mesh, name, notes))
     on_source, on_target = sides
@@ -41,7 +55,7 @@ def place_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> tuple[Surface
         raise LandmarkError(
             "E303", f"{len(on_source)} landmarks on the source but {len(on_target)} on the target; give one for each"
         )
-    return on_source, on_target, notes
+    return PlacedLandmarks(on_source, on_target, _tolerances(tolerance, len(on_source)), tuple(notes))
 
 
 def place_on(given: Any, mesh: Mesh, name: str = "surface") -> SurfacePoints:
@@ -82,12 +96,38 @@ def _place(given: Any, mesh: Mesh, name: str, notes: list[Note]) -> SurfacePoint
         points = given
     elif given.ndim == 2 and given.shape[1] == 3:
         points = _snap(given, mesh, name, notes)
+    elif given.ndim == 2 and given.shape[1] == 4:
+        points = _on_faces(given, mesh, name)
     elif given.ndim == 1:
         return _at_vertices(given, mesh, name)
     else:
-        raise LandmarkError("E300", f"landmarks of the {name} must have shape (k,) or (k, 3), not {given.shape}")
+        raise LandmarkError(
+            "E300", f"landmarks of the {name} must have shape (k,), (k, 3) or (k, 4), not {given.shape}"
+        )
     _refuse_repeats(points.positions, name)
     return points
+
+
+def _on_faces(given: NDArray[Any], mesh: Mesh, name: str) -> SurfacePoints:
+    face = given[:, 0]
+    if (~np.isfinite(face) | (face != np.floor(face)) | (face < 0) | (face >= mesh.n_faces)).any():
+        raise LandmarkError(
+            "E301", f"the {name} has faces 0 to {mesh.n_faces - 1}; a landmark says {face.tolist()!r:.60}"
+        )
+    try:
+        return SurfacePoints(mesh, face.astype(np.int64), given[:, 1:])
+    except MeshError as error:
+        raise LandmarkError("E300", f"barycentric weights of the {name} landmarks: {error}") from error
+
+
+def _tolerances(given: ArrayLike, count: int) -> NDArray[np.float64]:
+    try:
+        tolerance = np.broadcast_to(np.asarray(given, dtype=np.float64), (count,)).copy()
+    except (TypeError, ValueError) as error:
+        raise LandmarkError("E300", f"the tolerance must be a number or {count} of them ({error})") from error
+    if not (np.isfinite(tolerance) & (tolerance >= 0)).all():
+        raise LandmarkError("E300", "a tolerance must be 0 or a positive number, in square roots of the area")
+    return tolerance
 
 
 def _at_vertices(given: NDArray[Any], mesh: Mesh, name: str) -> SurfacePoints:

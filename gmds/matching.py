@@ -18,14 +18,14 @@ from gmds.coarsening import Carrier
 from gmds.correspondence import Correspondence
 from gmds.describing import described
 from gmds.initialization.landmarks import landmarks as from_landmarks
-from gmds.landmarks import landmark_vertices
+from gmds.landmarks import place_landmarks
 from gmds.losses import LeastSquares, Loss
 from gmds.pair import SurfacePair
 from gmds.proposals import Start, distinct, proposals
 from gmds.surface import Surface, measure, view_of
 
 SAMPLES = 300
-ENOUGH = 3  # landmarks that need no other starts
+ENOUGH = 3  # hard landmarks that need no other starts
 REFINED = 3  # maps whose samples are placed by the solver
 UNLIKELY = 0.8  # log-likelihood short of the best, at which no map of development pairs was the answer in the end
 REFLECTED = {"preserve": (False,), "reverse": (True,), "any": (False, True)}
@@ -58,15 +58,17 @@ def match(  # noqa: PLR0913 - the signature is a promise
 
     Either may be a `Surface`, made by `gmds.surface.measure`: what was computed of it for one match serves the next.
 
-    `landmarks` are known correspondences, see `gmds.landmarks.check_landmarks`. `rng` seeds whatever is random; in the
-    method as it stands nothing is. `progress(stage, fraction)` is called as work goes on. Raises `MeshError`,
-    `LandmarkError` (E300-E305), `SampleCountError` (E401), `SolverError` (E403).
+    `landmarks` are known correspondences, see `gmds.landmarks.check_landmarks`: those at vertices are met exactly,
+    those inside a face to within the size of faces; `SoftLandmarks` pull, as far as they can be right. `rng` seeds
+    whatever is random; in the method as it stands nothing is. `progress(stage, fraction)` is called as work goes on.
+    Raises `MeshError`, `LandmarkError` (E300-E305), `SampleCountError` (E401), `SolverError` (E403).
     """
     if orientation not in REFLECTED:
         raise ValueError(f"orientation must be 'preserve', 'reverse' or 'any', not {orientation!r}")
     measured, facing = (s if isinstance(s, Surface) else measure(Mesh.from_object(s)) for s in (source, target))
     loss = LeastSquares() if loss is None else loss
-    known = None if landmarks is None else landmark_vertices(landmarks, measured.original, facing.original)
+    given = None if landmarks is None else place_landmarks(landmarks, measured.original, facing.original)
+    known = None if given is None else given.known.within(measured.mesh.faces, facing.mesh.faces)
     count = SAMPLES if n_samples is None else check_sample_count(n_samples, measured.original)
     report = progress or (lambda stage, fraction: None)
     started = time.perf_counter()
@@ -94,9 +96,11 @@ def match(  # noqa: PLR0913 - the signature is a promise
         **described(distance, loss),
         "orientation": orientation,
         "rng": rng,
+        **({} if given is None else {"landmarks": given.described()}),
     }
     found = answer(placed, {"parameters": settings})
     found = found if carrier is None else carrier.carried(found)
+    found = found if given is None else given.pinned(found)
     report("done", 1.0)
     return replace(found, meta={**found.meta, "seconds": round(time.perf_counter() - started, 3)})
 
@@ -119,7 +123,7 @@ def _embedded(
         views = [given[0]]
     starts: list[Start] = list(initialization.ALL)
     if pair.known is not None:
-        starts = [from_landmarks(*pair.known), *(starts if len(pair.known[0]) < ENOUGH else ())]
+        starts = [from_landmarks(*pair.known.vertices), *(starts if len(pair.known.hard) < ENOUGH else ())]
     report("proposing", 0.2)
     found = proposals(pair, views, starts, lambda share: report("proposing", 0.2 + 0.3 * share))
     chosen = distinct(found, pair.outlines[0], REFINED, UNLIKELY)

@@ -11,20 +11,20 @@ from geodesics import SurfacePoints
 from geodesics.threads import cached_property
 from gmds.derived import derived_once
 from gmds.geometry import Geometry
+from gmds.known import Known
 from gmds.problem import joined
 from gmds.refinement import Refiner
 from gmds.surface import Surface
 from gmds.symmetries import mirror
 
 Index = NDArray[np.int64]
-Known = tuple[Index, Index]
 
 WEIGHT = 10  # samples that a landmark is worth
 
 
 @dataclass(frozen=True, eq=False)
 class SurfacePair:
-    """What is to be matched: two surfaces, and `known` vertices of both that correspond, or None.
+    """What is to be matched: two surfaces, and what is `known` of the map, or None.
 
     `reflected`: whether the target is the mirror image of what was given, for maps that reverse orientation.
     """
@@ -37,12 +37,17 @@ class SurfacePair:
     @cached_property
     def outlines(self) -> tuple[Geometry, Geometry]:
         """Both surfaces with few faces."""
-        return outline(self.source), outline(self.target)
+        return self._anchored(outline(self.source), outline(self.target))
 
     @cached_property
     def geometries(self) -> tuple[Geometry, Geometry]:
         """Both surfaces with all their faces."""
-        return geometry(self.source), geometry(self.target)
+        return self._anchored(geometry(self.source), geometry(self.target))
+
+    def _anchored(self, source: Geometry, target: Geometry) -> tuple[Geometry, Geometry]:
+        if self.known is None:
+            return source, target
+        return self.known.anchored((self.source.mesh.vertices, self.target.mesh.vertices), source, target)
 
     @cached_property
     def refiner(self) -> Refiner:
@@ -56,10 +61,11 @@ class SurfacePair:
         return ours, reversing(self.target) if ours is None else None
 
     def with_landmarks(self, samples: Index, points: SurfacePoints) -> tuple[Index, SurfacePoints]:
-        """Placed samples with the landmarks added, often enough that the extension heeds them."""
-        if self.known is None:
+        """Placed samples with the hard landmarks added, often enough that the extension heeds them."""
+        hard = None if self.known is None else self.known.hard
+        if hard is None or len(hard) == 0:
             return samples, points
-        ours, theirs = (np.repeat(side, WEIGHT) for side in self.known)
+        ours, theirs = (np.repeat(side, WEIGHT) for side in hard.vertices)
         return np.concatenate([samples, ours]), joined(points, SurfacePoints.at_vertices(points.mesh, theirs))
 
 

@@ -63,7 +63,7 @@ def write_picture(
     Drawn by `renderer`: `gmds.offscreen.offscreen` (pyvista) or `gmds.rendering.software`; unless it is given, by the
     first of them that can. Returns why it was not the first one, or nothing.
 
-    Raises `MissingExtra` without the extra `viz`, `PictureFormat` (E217) for another ending, `RenderingError` (E510)
+    Raises `MissingExtra` without the extra `viz`, `PictureFormat` (E218) for another ending, `RenderingError` (E510)
     when a renderer that was given can not draw, `OSError` when the file can not be written.
     """
     panels = map_panels(answer, errors, names=names, up=up, pixels=pixels)

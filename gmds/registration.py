@@ -25,6 +25,7 @@ REFINE: Sequence[tuple[float, int]] = ((3e-3, 4), *FINE)  # of a map that is goo
 SETTLE: Sequence[tuple[float, int]] = ((1e-3, 5), (5e-4, 4))
 BACK: Sequence[tuple[float, int]] = ((3e-3, 4), (3e-3, 3), (1e-3, 3))
 AGAIN: Sequence[tuple[float, int]] = ((1e-3, 3), (1e-3, 3), (5e-4, 3))
+CONGRUENT = 1e-9  # elastic energy below which a map is a congruence up to rounding
 LEAST = 1e-6  # residuals below this are rounding
 GIVEN_TIME = 1e-3  # heat time that smooths the given map before anything is fitted to it
 
@@ -34,7 +35,8 @@ class Residuals:
     """What is left of a source deformed onto a target.
 
     `energy`: elastic energy; `misfit`, `misfit_back`: root mean square distance to the target, and from it to the
-    source, in root areas; `curvature`, `curvature_back`: correlation of squashed mean curvature, both ways.
+    source, in root areas; `curvature`, `curvature_back`: correlation of squashed mean curvature, both ways;
+    `landmarks`: minus the log-likelihood of what they are missed by.
     """
 
     energy: float
@@ -42,6 +44,7 @@ class Residuals:
     misfit_back: float
     curvature: float
     curvature_back: float
+    landmarks: float = 0.0
 
     @property
     def loss(self) -> float:
@@ -53,7 +56,17 @@ class Residuals:
         """
         unexplained = [np.sqrt(1 - np.clip(r, 0.0, 1.0) ** 2) for r in (self.curvature, self.curvature_back)]
         spreads = (np.sqrt(self.energy), self.misfit_back, *unexplained)
-        return float(sum(np.log(max(spread, LEAST)) for spread in spreads))
+        return float(sum(np.log(max(spread, LEAST)) for spread in spreads)) + self.landmarks
+
+    @property
+    def is_congruence(self) -> bool:
+        """Whether nothing is deformed but for rounding, and no landmark missed."""
+        return self.energy + self.landmarks < CONGRUENT
+
+    @property
+    def cost(self) -> float:
+        """The elastic energy, times what missed landmarks make of it in the likelihood."""
+        return self.energy * float(np.exp(2 * self.landmarks))
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +121,8 @@ def settled(
     ICP: Besl and McKay 1992; both ways, so that nothing of the target is left out), and the source takes the shape of
     least elastic energy that is held there by springs. The springs grow ever stronger against the elasticity.
     `growing`: whether the elasticity lets parts change size; `partial`: whether what is closest to a boundary is left
-    alone, as what it belongs to may be missing; `views` of both: whether eigenfunctions take part in the search.
+    alone, as what it belongs to may be missing; `views` of both: whether eigenfunctions take part in the search. The
+    anchors of the source pull as well.
     """
     elasticity = source.elasticity
     for stiff, steps in stages:
@@ -116,7 +130,11 @@ def settled(
         for _ in range(steps):
             pairing = Pairing.of(source, target, y, partial, views, pairing)
             weights, goals = pairing.springs(source, target)
-            pull = elasticity.force(elasticity.turns(y, growing))
+            turns = elasticity.turns(y, growing)
+            if source.anchors is not None:
+                energy = float(elasticity.energy(y, turns).sum())
+                weights, goals = source.anchors.added((weights, goals), y, stiff, energy)
+            pull = elasticity.force(turns)
             y = elasticity.solver(stiff, weights)(stiff * pull + weights[:, None] * goals)
     return registered(source, target, y, growing=growing, partial=partial)
 
@@ -135,6 +153,7 @@ def registered(source: Geometry, target: Geometry, y: Array, *, growing: bool, p
         misfit_back=_root_mean_square(gap_back, pairing.weight_back),
         curvature=correlation(source.curvature, points.interpolate(target.curvature), pairing.weight),
         curvature_back=correlation(there, source.curvature[back], pairing.weight_back),
+        landmarks=0.0 if source.anchors is None else source.anchors.loss(y),
     )
     return Registered(y, points, energy / np.maximum(source.areas, np.finfo(float).tiny), residuals)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from geodesics.points import SurfacePoints
 from gmds.errors import MapError
@@ -27,6 +27,21 @@ def carry(points: SurfacePoints, values: NDArray[Any], labels: bool | None = Non
     if is_label(values) if labels is None else labels:
         return _majority(corners, points.barycentric)
     return _blend(corners, points.barycentric)
+
+
+def carry_weights(points: SurfacePoints, weights: ArrayLike) -> NDArray[np.float64]:
+    """Weights per vertex (n, k), as of bones in skinning, as weights (p, k) per point: interpolated, rows sum to 1.
+
+    Raises `MapError` naming the vertex whose weights are negative, not finite, or all 0.
+    """
+    given = np.asarray(weights, dtype=np.float64)
+    if given.ndim != 2:
+        raise MapError(f"weights must have shape (n, k), a column for each bone, not {given.shape}")
+    wrong = np.flatnonzero(~(np.isfinite(given).all(axis=1) & (given >= 0).all(axis=1) & (given.sum(axis=1) > 0)))
+    if len(wrong):
+        raise MapError(f"the weights of vertex {wrong[0]} must be at least 0, and one of them above it")
+    carried = carry(points, given / given.sum(axis=1, keepdims=True), labels=False)
+    return np.asarray(carried / carried.sum(axis=1, keepdims=True), dtype=np.float64)
 
 
 def is_label(values: NDArray[Any]) -> bool:

@@ -12,6 +12,7 @@ import numpy as np
 import gmds
 from geodesics import Mesh, SurfacePoints, read_mesh, write_mesh
 from gmds import Correspondence
+from gmds.appearance import Look, write_look
 from gmds.landmark_files import Landmarks, write_landmarks
 from gmds.matching import SAMPLES
 from gmds.shapes import Figure, quadruped, truth
@@ -27,10 +28,11 @@ def small_pair() -> tuple[Figure, Figure, SurfacePoints]:
 
 
 def write_files(folder: Path) -> None:
-    """dog.ply, wolf.off, the true map between them, landmarks, values, a folder of meshes and a benchmark."""
+    """dog.ply, wolf.off, the true map between them, landmarks, values, looks, a folder of meshes and a benchmark."""
     dog, wolf, true = small_pair()
-    write_mesh(dog, folder / "dog.ply")
-    write_mesh(wolf, folder / "wolf.off")
+    exact = [Mesh(mesh.vertices.astype(np.float32), mesh.faces) for mesh in (dog, wolf)]  # the same in all formats
+    write_mesh(exact[0], folder / "dog.ply")
+    write_mesh(exact[1], folder / "wolf.off")
     source, target = read_mesh(folder / "dog.ply"), read_mesh(folder / "wolf.off")
     points = SurfacePoints(target, true.face, true.barycentric)
     Correspondence.from_points(source, points).save(folder / "map.npz")
@@ -41,8 +43,22 @@ def write_files(folder: Path) -> None:
         write_mesh(Mesh(mesh.vertices * [-1, -1, 1], mesh.faces), folder / name)
     write_mesh(quadruped(n_vertices=3000), folder / "scan.ply")
     np.savetxt(folder / "heights.csv", target.vertices[:, 2])
-    (folder / "parts.txt").write_text("\n".join(np.where(target.vertices[:, 2] > 1, "upper", "lower")))
+    (folder / "parts.txt").write_text("\n".join(np.where(target.vertices[:, 2] > 1, "1", "2")))
+    np.save(folder / "bones.npy", np.random.default_rng(0).dirichlet(np.ones(4), target.n_vertices))
+    _write_looks(folder, target)
     _write_collections(folder)
+
+
+def _write_looks(folder: Path, wolf: Mesh) -> None:
+    """The wolf with colours, and with a texture of two charts."""
+    from PIL import Image
+
+    colours = np.full((wolf.n_vertices, 3), 120, dtype=np.uint8)
+    write_look(folder / "wolf.ply", wolf, Look(colours))
+    corners = wolf.vertices[wolf.faces]
+    uv = 0.1 * corners[..., [0, 2]] + np.where(corners[..., 1].mean(axis=1) < 0, 0.5, 0.0)[:, None, None]
+    for name in ("wolf.obj", "wolf.glb"):
+        write_look(folder / name, wolf, Look(uv=uv, image=Image.new("RGB", (8, 8), (200, 150, 90))))
 
 
 def _write_landmarks(folder: Path, source: Mesh, target: Mesh, vertices: Any) -> None:

@@ -308,6 +308,11 @@ def test_landmark_files(tmp_path: Path) -> None:
     assert there.tolist() == [[2.5, 1e-3, -7]]
     path.write_text("3 4\r\n\r\n5,6")
     assert np.asarray(read_landmarks(path)).tolist() == [[3, 4], [5, 6]]
+    path.write_text("3 0.5 0.5 0 7 1 0 0")
+    assert [side.tolist() for side in read_landmarks(path)] == [[[3, 0.5, 0.5, 0]], [[7, 1, 0, 0]]]
+    path.write_text("3 4 0.1\n5 6 0")
+    soft = read_landmarks(path)
+    assert soft.landmarks.tolist() == [[3, 4], [5, 6]] and soft.tolerance.tolist() == [0.1, 0]
 
 
 @pytest.mark.parametrize(
@@ -315,7 +320,9 @@ def test_landmark_files(tmp_path: Path) -> None:
     [
         ("", "no landmarks"),
         ("# nothing\n", "no landmarks"),
-        ("1 2 3\n", "line 1: 3 entries"),
+        ("1 2 3 4\n", "line 1: 4 entries"),
+        ("1 2 x\n", "'x' is not a number"),
+        ("0.5 1 0 0 3 1 0 0\n", "'0.5' is not a whole number"),
         ("1 2\n\n3\n", "line 3: 1 entries"),
         ("1 2.5\n", "line 1: '2.5' is not a whole number"),
         ("0 0 0 1 1 nan\n", "'nan' is not a number"),

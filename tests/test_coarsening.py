@@ -11,6 +11,7 @@ import gmds
 from geodesics import Mesh
 from gmds import coarsening
 from gmds.coarsening import Carrier, coarse
+from gmds.landmarks import place_landmarks
 from gmds.surface import measure
 
 LARGE, WORKING = 900, 500
@@ -81,12 +82,13 @@ def test_landmarks_are_kept_but_not_twice() -> None:
     carrier = Carrier.of(surface, surface)
     assert carrier is not None
     everything = np.arange(whole().n_vertices)
-    ours, theirs = carrier.landmarks((everything, everything))
+    ours, theirs = carrier.landmarks(place_landmarks((everything, everything), whole(), whole()).known).vertices
     assert len(ours) == carrier.copies[0].mesh.n_vertices
     assert len(set(ours.tolist())) == len(ours)
     assert len(set(theirs.tolist())) == len(theirs)
     answer = gmds.match(whole(), moved_whole(), landmarks=[[0, 0], [700, 700], [1400, 1400]])
     assert mean_error(answer, moved_whole()) < 2
+    assert answer.vertex_map()[[0, 700, 1400]].tolist() == [0, 700, 1400]
 
 
 def test_a_second_match_finds_the_copy_made() -> None:

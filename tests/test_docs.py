@@ -20,6 +20,7 @@ from sybil import Document, Example
 from sybil.parsers.markdown import CodeBlockParser, PythonCodeBlockParser, SkipParser
 
 import gmds
+from gmds.batch.records import UNEXPECTED, WORKER_DIED
 from gmds.cli import main
 
 ROOT = Path(__file__).parents[1]
@@ -114,6 +115,7 @@ def test_no_two_errors_have_the_same_code() -> None:
     by_code: dict[str, list[str]] = {}
     for code, kind in codes:
         by_code.setdefault(code, []).append(kind.__name__)
+    assert not {WORKER_DIED, UNEXPECTED} & set(by_code)  # those of batches
     assert len(by_code) > 35 and not {code: names for code, names in by_code.items() if len(names) > 1}
 
 

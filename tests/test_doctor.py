@@ -15,6 +15,7 @@ from click.testing import CliRunner
 
 from gmds import diagnosis
 from gmds.cli import main
+from gmds.errors import RenderingError
 from gmds.warming import Warmth
 
 ROOT = Path(__file__).parents[1]
@@ -32,6 +33,7 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> dict[str, str]:
 
     monkeypatch.setattr(diagnosis.importlib.metadata, "version", version)
     monkeypatch.setattr(diagnosis, "_import_error", lambda module: "")
+    monkeypatch.setattr("gmds.offscreen.offscreen", lambda shots: [])
     return known
 
 
@@ -74,6 +76,23 @@ def test_old_missing_and_broken_packages_are_problems(quick: dict[str, str], mon
     assert problems == ["numpy", "libigl", "rich", "extra viz"]
     assert found["numpy"]["advice"] == "pip install --upgrade 'numpy>=1.26'"
     assert "no driver" in found["libigl"]["found"] and "no driver" in found["extra viz"]["found"]
+
+
+def test_a_missing_package_is_told_before_it_is_used(quick: dict[str, str], monkeypatch: pytest.MonkeyPatch) -> None:
+    quick["numba"] = ""
+    monkeypatch.setattr("geodesics.compiling.cache_folder", lambda: 1 / 0)
+    code, found, problems = doctor()
+    assert (code, problems) == (1, ["numba"])
+    assert "compiled kernels" not in found
+
+
+def test_a_machine_that_can_not_draw_is_no_problem(quick: dict[str, str], monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(shots: object) -> None:
+        raise RenderingError("no driver")
+
+    monkeypatch.setattr("gmds.offscreen.offscreen", refuse)
+    code, found, _ = doctor()
+    assert code == 0 and found["drawing"]["state"] == "absent" and "no driver" in found["drawing"]["advice"]
 
 
 def test_a_folder_that_can_not_be_written(quick: dict[str, str], monkeypatch: pytest.MonkeyPatch) -> None:

@@ -14,6 +14,7 @@ from shapes import bumpy_sphere, ellipsoid, icosphere, joined
 
 import geodesics
 from geodesics import SurfacePoints, write_mesh
+from gmds.appearance import Look, read_look, write_look
 from gmds.cli import main
 from gmds.cli.choices import METRICS, SMOOTHING
 from gmds.cli.values_file import BadValuesFile, read_values
@@ -269,6 +270,60 @@ def test_whole_numbers_without_labels_are_remarked_on(carry: list[object], tmp_p
     result = run(*carry, "--values", tmp_path / "v.npy", "-o", tmp_path / "out.npy")
     assert result.exit_code == 0 and "--labels" in result.stderr
     np.testing.assert_allclose(np.load(tmp_path / "out.npy"), blended(np.arange(162)))
+
+
+def test_weights_keep_summing_to_one_and_vectors_turn(carry: list[object], tmp_path: Path) -> None:
+    weights = np.random.default_rng(1).random((MESH.n_vertices, 4)) * np.arange(4)
+    np.save(tmp_path / "w.npy", weights)
+    done(*carry, "--values", tmp_path / "w.npy", "--kind", "weights", "-o", tmp_path / "out.npy")
+    carried = np.load(tmp_path / "out.npy")
+    assert np.allclose(carried.sum(axis=1), 1, atol=1e-14) and (carried >= 0).all() and (carried[:, 0] == 0).all()
+    np.testing.assert_allclose(carried, blended(weights / weights.sum(axis=1, keepdims=True)), atol=1e-14)
+    weights[5] = 0
+    np.save(tmp_path / "w.npy", weights)
+    assert "vertex 5" in refused(*carry, "--values", tmp_path / "w.npy", "--kind", "weights", "-o", tmp_path / "o.npy")
+    np.save(tmp_path / "v.npy", MESH.vertices)
+    said = done(*carry, "--values", tmp_path / "v.npy", "--kind", "vectors", "-o", tmp_path / "out.vtp")
+    assert said["carried"] == "turned as the map turns the surface"
+    assert b'Name="value" NumberOfComponents="3"' in (tmp_path / "out.vtp").read_bytes()
+
+
+def test_colours_go_to_meshes(carry: list[object], tmp_path: Path) -> None:
+    colours = np.random.default_rng(1).integers(0, 256, (MESH.n_vertices, 3)).astype(np.uint8)
+    np.save(tmp_path / "c.npy", colours)
+    for ending in (".ply", ".obj", ".glb"):
+        out = tmp_path / f"out{ending}"
+        done(*carry, "--values", tmp_path / "c.npy", "--kind", "colours", "-o", out)
+        found = read_look(out, geodesics.read_mesh(out)).colours
+        assert found is not None and np.abs(found - np.rint(blended(colours))).max() <= 1
+    write_look(tmp_path / "b.ply", MESH, Look(colours))
+    again = [carry[5] if one == carry[5] else one for one in carry[:5]] + [tmp_path / "b.ply"]
+    said = done(*again, "-o", tmp_path / "again.ply")
+    assert said["carried"] == "by interpolation, as colours"
+    assert (tmp_path / "again.ply").read_bytes() == (tmp_path / "out.ply").read_bytes()
+    np.save(tmp_path / "c.npy", colours * 2.0)
+    assert "0 to 255" in refused(
+        *carry, "--values", tmp_path / "c.npy", "--kind", "colours", "-o", tmp_path / "o.ply", code=2
+    )
+
+
+def test_a_texture_goes_along_and_its_seams_are_told(carry: list[object], tmp_path: Path) -> None:
+    image = pytest.importorskip("PIL.Image").new("RGB", (8, 8), (200, 10, 10))
+    uv = (
+        MESH.vertices[MESH.faces][..., :2]
+        + np.where(MESH.vertices[MESH.faces][..., 2].mean(axis=1) < 0, 5, 0)[:, None, None]
+    )
+    write_look(tmp_path / "b.obj", MESH, Look(uv=uv, image=image))
+    again = [*carry[:5], tmp_path / "b.obj"]
+    said = done(*again, "--texture", tmp_path / "b.png", "-o", tmp_path / "out.obj")
+    assert said["carried"] == "texture" and 0 < said["faces_on_seams"] < 80 and len(said["files"]) == 3
+    look = read_look(tmp_path / "out.obj", geodesics.read_mesh(tmp_path / "out.obj"))
+    assert look.uv is not None and (np.ptp(look.uv, axis=1) < 4).all()
+    without = run(*again, "-o", tmp_path / "out.glb")
+    assert without.exit_code == 0 and "give it with --texture" in without.stderr
+    assert "neither colours nor texture" in refused(*carry, "-o", tmp_path / "o.glb", code=2)
+    assert "give --values" in refused(*carry, "-o", tmp_path / "o.npy", code=2)
+    assert "--values" in refused(*again, "--kind", "colours", "-o", tmp_path / "o.glb", code=2)
 
 
 def test_values_that_do_not_fit_are_refused(carry: list[object], tmp_path: Path) -> None:

@@ -11,11 +11,17 @@ from shapes import bumpy_sphere, icosphere, with_isolated
 from geodesics import Mesh, SurfacePoints
 from gmds._validation import check_keys, check_sample_count, suggest_keywords
 from gmds.errors import LandmarkError, SampleCountError, UnknownKey
-from gmds.landmarks import check_landmarks, place_landmarks
+from gmds.landmarks import SoftLandmarks, check_landmarks, place_landmarks
 
 A, B = bumpy_sphere(2), icosphere(2)
 PAIRS = np.array([[3, 5], [10, 1], [20, 30]])
 LONELY = with_isolated(icosphere(1))  # its first vertex is on no face
+
+
+def on_faces(mesh: Mesh, vertices: Any) -> Any:
+    """Rows of a face and three weights."""
+    points = SurfacePoints.at_vertices(mesh, vertices)
+    return np.column_stack([points.face, points.barycentric])
 
 
 @pytest.mark.parametrize(
@@ -30,6 +36,9 @@ LONELY = with_isolated(icosphere(1))  # its first vertex is on no face
         (A.vertices[PAIRS[:, 0]], B.vertices[PAIRS[:, 1]]),
         (A.vertices[PAIRS[:, 0]], PAIRS[:, 1]),
         (SurfacePoints.at_vertices(A, PAIRS[:, 0]), PAIRS[:, 1]),
+        (on_faces(A, PAIRS[:, 0]), on_faces(B, PAIRS[:, 1])),
+        SoftLandmarks(PAIRS),
+        SoftLandmarks((PAIRS[:, 0], B.vertices[PAIRS[:, 1]]), 0.1),
     ],
 )
 def test_every_form_gives_the_same_points(given: Any) -> None:
@@ -65,6 +74,15 @@ REFUSED: list[tuple[str, Any, str]] = [
     ("E300", [[1, 2], [3], [4, 5]], "rectangular"),
     ("E300", (SurfacePoints.at_vertices(B, [1, 2]), [1, 2]), "another mesh"),
     ("E300", {"nose": 3}, "indices or positions"),
+    ("E301", ([[0, 1, 0, 0], [A.n_faces, 1, 0, 0]], [1, 2]), "faces 0 to 319"),
+    ("E301", ([[0.5, 1, 0, 0]], [1]), "the source has faces"),
+    ("E300", ([[0, 0.7, 0.7, 0]], [1]), "barycentric weights of the source"),
+    ("E302", ([[0, 0.5, 0.5, 0], [0, 0.5, 0.5, 0]], [1, 2]), "landmarks 0 and 1"),
+    ("E300", SoftLandmarks(PAIRS, [0.1, 0.2]), "or 3 of them"),
+    ("E300", SoftLandmarks(PAIRS, -0.1), "0 or a positive number"),
+    ("E300", SoftLandmarks(PAIRS, np.nan), "0 or a positive number"),
+    ("E300", SoftLandmarks(PAIRS, "soft"), "must be a number"),
+    ("E301", SoftLandmarks([[3, 5], [A.n_vertices, 1]]), "landmark 1"),
 ]
 
 
@@ -86,10 +104,10 @@ def test_v18_positions_near_the_surface_are_moved_to_it_and_the_move_is_told(sca
     a = Mesh(scale * B.vertices, B.faces)
     index = np.array([4, 40, 90])
     lifted = a.vertices[index] * [[1.02], [1.0], [1.0]]
-    points, _, notes = place_landmarks((lifted, index), a, B)
-    assert np.linalg.norm(points.positions - a.vertices[index], axis=1).max() < 0.03 * scale
-    assert [note.code for note in notes] == ["W301"] and notes[0].indices == (0,)
-    assert place_landmarks((a.vertices[index], index), a, B)[2] == []
+    placed = place_landmarks((lifted, index), a, B)
+    assert np.linalg.norm(placed.on_source.positions - a.vertices[index], axis=1).max() < 0.03 * scale
+    assert [note.code for note in placed.notes] == ["W301"] and placed.notes[0].indices == (0,)
+    assert place_landmarks((a.vertices[index], index), a, B).notes == ()
 
 
 @pytest.mark.parametrize("wrong", [0, -1, 2, B.n_vertices + 1, 10**30, 5.0, "5", True, None, np.nan, np.float64(5)])

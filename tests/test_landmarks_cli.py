@@ -19,6 +19,7 @@ from gmds.correspondence import Correspondence, MatchStatus
 from gmds.errors import LandmarkError, MapError
 from gmds.landmark_files import Landmarks, read_landmarks, write_landmarks
 from gmds.landmark_transfer import carry_landmarks
+from gmds.map_file import read_meta
 
 SHAPE = bumpy_sphere(2)
 N = SHAPE.n_vertices
@@ -48,6 +49,37 @@ def pair(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[Path, Path]:
     write_mesh(SHAPE, tmp_path / "a.ply")
     write_mesh(TARGET, tmp_path / "b.ply")
     return tmp_path / "a.ply", tmp_path / "b.ply"
+
+
+def test_landmarks_given_to_match_are_soft_when_that_is_said(pair: tuple[Path, Path], tmp_path: Path) -> None:
+    (tmp_path / "m.txt").write_text("3 3\n50 50\n")
+    command = ["match", *pair, "-o", tmp_path / "m.npz", "--landmarks", tmp_path / "m.txt"]
+    assert run(*command).exit_code == 0 and isinstance(GIVEN["landmarks"], np.ndarray)
+    assert run(*command, "--tolerance", 0.1).exit_code == 0
+    assert GIVEN["landmarks"].tolerance == 0.1 and GIVEN["landmarks"].landmarks.tolist() == [[3, 3], [50, 50]]
+    (tmp_path / "m.txt").write_text("3 3 0.2\n50 50 0\n")
+    assert run(*command, "--tolerance", 0.1).exit_code == 0
+    assert GIVEN["landmarks"].tolerance.tolist() == [0.2, 0]
+
+
+def test_a_map_gives_the_landmarks_it_was_made_with_and_says_what_moved(tmp_path: Path) -> None:
+    write_mesh(SHAPE, tmp_path / "a.ply")
+    places = " ".join(map(str, SHAPE.vertices[50] * 1.01))
+    other = " ".join(map(str, SHAPE.vertices[3]))
+    (tmp_path / "m.txt").write_text(f"{places} {places} 0.1\n{other} {other} 0\n")
+    meshes = [tmp_path / "a.ply"] * 2
+    first = run("match", *meshes, "-o", tmp_path / "1.npz", "--landmarks", tmp_path / "m.txt")
+    assert first.exit_code == 0 and "W301: 1 landmarks of the source moved to its surface, by up to" in first.stderr
+    again = run("match", *meshes, "-o", tmp_path / "2.npz", "--config", tmp_path / "1.npz")
+    assert again.exit_code == 0, again.output
+    made = [read_meta(tmp_path / name)["parameters"]["landmarks"] for name in ("1.npz", "2.npz")]
+    assert made[0]["tolerance"] == made[1]["tolerance"] == [0.1, 0.0]
+    assert made[0]["source"]["face"] == made[1]["source"]["face"]
+    with np.load(tmp_path / "1.npz") as a, np.load(tmp_path / "2.npz") as b:
+        assert all(np.array_equal(a[name], b[name]) for name in ("face", "barycentric"))
+    Correspondence.from_points(SHAPE, SurfacePoints.at_vertices(SHAPE, np.arange(N))).save(tmp_path / "none.npz")
+    none = run("match", *meshes, "--landmarks", tmp_path / "none.npz")
+    assert none.exit_code == 1 and "made without landmarks" in none.stderr
 
 
 def marks(*vertices: int) -> Landmarks:

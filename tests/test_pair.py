@@ -9,11 +9,12 @@ from matched import animal, bumpy, reflected, surface
 
 from geodesics import SurfacePoints
 from gmds import pair as pair_module
+from gmds.landmarks import SoftLandmarks, place_landmarks
 from gmds.orientation import vertex_map_orientation
 from gmds.pair import WEIGHT, SurfacePair
 from gmds.surface import Surface, View, measure
 
-KNOWN = np.array([3, 40, 90]), np.array([5, 41, 7])
+KNOWN = [[3, 5], [40, 41], [90, 7]]
 
 
 def test_without_landmarks_samples_stay_as_they_are() -> None:
@@ -24,13 +25,14 @@ def test_without_landmarks_samples_stay_as_they_are() -> None:
 
 
 def test_landmarks_are_added_as_often_as_they_count() -> None:
-    pair = SurfacePair(surface(bumpy()), surface(bumpy()), KNOWN)
+    known = place_landmarks(SoftLandmarks([*KNOWN, [11, 12]], [0, 0, 0, 0.1]), bumpy(), bumpy()).known
+    pair = SurfacePair(surface(bumpy()), surface(bumpy()), known)
     ours, theirs = pair.with_landmarks(np.array([1, 2]), SurfacePoints.at_vertices(pair.target.mesh, [4, 5]))
     assert len(ours) == len(theirs) == 2 + 3 * WEIGHT
     assert ours[:2].tolist() == [1, 2] and theirs[:2].nearest_vertices().tolist() == [4, 5]
     added = set(zip(ours[2:].tolist(), theirs[2:].nearest_vertices().tolist(), strict=True))
     assert added == {(3, 5), (40, 41), (90, 7)}
-    assert np.bincount(ours)[KNOWN[0]].tolist() == [WEIGHT] * 3
+    assert np.bincount(ours)[[3, 40, 90]].tolist() == [WEIGHT] * 3  # and the soft one not at all
 
 
 def test_an_animal_has_a_reflection_that_turns_it_over_and_undoes_itself() -> None:

@@ -55,7 +55,7 @@ def test_the_ending_names_the_format(answer: Correspondence, tmp_path: Path) -> 
         assert twice[0].read_bytes() == twice[1].read_bytes() and twice[0].read_bytes().startswith(first)
     assert "&lt;a&gt;" in (tmp_path / "a.svg").read_text()
     for name in ("map.tif", "map"):
-        with pytest.raises(PictureFormat, match=r"E217.*map.*\.png, \.jpg"):
+        with pytest.raises(PictureFormat, match=r"E218.*map.*\.png, \.jpg"):
             write_picture(tmp_path / name, answer)
     assert not list(tmp_path.glob("map*"))
 

@@ -72,7 +72,8 @@ def test_what_is_dumped_reads_back(command: str, options: list[object], file: Pa
 
 def test_everything_is_told_set_or_not() -> None:
     text = dumped("match")
-    assert "# not set: match.source, match.target, match.report, match.picture, matching.samples" in text
+    unset = ("source", "target", "report", "picture", "up", "tolerance")
+    assert f"# not set: {', '.join(f'match.{name}' for name in unset)}, matching.samples" in text
     said = tomllib.loads(text)
     assert said["matching"] == {"orientation": "preserve", "loss": "least-squares", "seed": 0}
     assert said["match"]["output"] == "map.npz"

@@ -12,7 +12,7 @@ from gmds.cli.output import emit, json_option
 @json_option
 @click.pass_context
 def command(ctx: click.Context, as_json: bool) -> None:
-    """Look at Python, the packages, the optional parts, the threads, and the folder that keeps compiled kernels.
+    """Look at Python, the packages, the optional parts, drawing, threads, and the folder that keeps compiled kernels.
 
     \b
       gmds doctor

@@ -19,11 +19,29 @@ space_option = click.option(
 )
 
 
-def given_landmarks(paths: Sequence[Path], space: Any) -> Any:
+tolerance_option = click.option(
+    "--tolerance",
+    type=click.FloatRange(min=0),
+    metavar="T",
+    help="Landmarks are right to within T square roots of the area, and pull; without it they hold exactly.",
+)
+
+
+def given_landmarks(paths: Sequence[Path], space: Any, tolerance: float | None = None) -> Any:
     """What `match` takes, from no file, one of pairs, or one for each surface; points on one only are told on stderr.
 
-    Raises `click.UsageError` for more than two.
+    With a tolerance they are soft, but for those whose file says otherwise. Raises `click.UsageError` for more than two
+    files.
     """
+    from gmds.landmarks import SoftLandmarks
+
+    found = _given(paths, space)
+    if tolerance is None or found is None or isinstance(found, SoftLandmarks):
+        return found
+    return SoftLandmarks(found, tolerance)
+
+
+def _given(paths: Sequence[Path], space: Any) -> Any:
     if len(paths) > 2:
         raise click.UsageError("--landmarks: give one file of pairs, or one for the source and one for the target")
     if not paths:

@@ -32,7 +32,7 @@ def map_settings(path: Path) -> dict[str, dict[str, Any]]:
     if made["distance"] is not None:
         pairs = (((m, d), ChosenDistance(m, d)) for m in METRICS for d in DISTANCES)
         matching["metric"], matching["distance"] = _named(path, "distance", made["distance"], pairs)
-    return {"matching": matching}
+    return {"matching": matching, "match": {"landmarks": [str(path)]} if "landmarks" in made else {}}
 
 
 def _named(path: Path, what: str, words: str, known: Iterable[tuple[Any, Any]]) -> Any:

@@ -7,9 +7,9 @@ from typing import Any
 
 import click
 
-from gmds.cli.landmark_options import given_landmarks, space_option
+from gmds.cli.landmark_options import given_landmarks, space_option, tolerance_option
 from gmds.cli.matching_options import matching_arguments, matching_options
-from gmds.cli.output import emit, json_option, progress_bar
+from gmds.cli.output import emit, json_option, note, progress_bar
 from gmds.cli.settings import ConfiguredCommand
 from gmds.cli.views import view_options, write_views
 
@@ -23,6 +23,7 @@ FILE = click.Path(path_type=Path)
 @view_options
 @click.option("--landmarks", type=FILE, multiple=True, help="Known points; given once or twice, see above.")
 @space_option
+@tolerance_option
 @matching_options
 @json_option
 def command(source: Path, target: Path, output: Path, as_json: bool, **options: Any) -> None:
@@ -34,9 +35,10 @@ def command(source: Path, target: Path, output: Path, as_json: bool, **options: 
 
     Meshes are OFF, OBJ, PLY, STL, GLB or TOSCA .vert/.tri files. The map is a .npz that numpy alone can read.
 
-    Landmarks are one file for both surfaces, with two vertex numbers (from 0) or six coordinates a line; or, with the
-    option given twice, a file for SOURCE then one for TARGET (.csv, .mrk.json, .fcsv, .tps, .pts, .vts), whose points
-    belong together by name when both have names, else by order.
+    Landmarks are one file for both surfaces, with two vertex numbers (from 0), six coordinates, or twice a face and
+    three weights a line, and perhaps a tolerance behind them; or a map, for those it was made with; or, with the option
+    given twice, a file for SOURCE then one for TARGET (.csv, .mrk.json, .fcsv, .tps, .pts, .vts), whose points belong
+    together by name when both have names, else by order.
     """
     import time
 
@@ -44,11 +46,13 @@ def command(source: Path, target: Path, output: Path, as_json: bool, **options: 
     from gmds import match
 
     meshes = read_mesh(source), read_mesh(target)
-    known = given_landmarks(options["landmarks"], options["space"])
+    known = given_landmarks(options["landmarks"], options["space"], options["tolerance"])
     started = time.process_time()
     with progress_bar("match") as progress:
         answer = match(*meshes, landmarks=known, progress=progress, **matching_arguments(options))
     seconds = time.process_time() - started
+    for line in answer.meta.get("parameters", {}).get("landmarks", {}).get("notes", ()):
+        note(f"gmds: {line}")
     answer.save(output)
     emit({"map": str(output), "cpu_seconds": seconds, **described(answer)}, as_json)
     shown = {name: options[name] for name in ("report", "picture", "up")}

@@ -3,6 +3,7 @@
 | ending | what it holds | names | frame |
 |---|---|---|---|
 | `.csv` | `name,x,y,z`, `x,y,z`, `name,vertex` or `vertex` (from 0) a line; a header may order them | yes | by header |
+| | or, below this header, `name,face,w0,w1,w2`: a face (from 0) and barycentric weights | | |
 | `.mrk.json` | 3D Slicer markups, schema 1.x: the control points of every list | yes | LPS or RAS |
 | `.fcsv` | 3D Slicer fiducials, 4.x | yes | LPS or RAS |
 | `.tps` | one specimen of `LM3=` landmarks, and no scale | no | - |
@@ -22,9 +23,10 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from gmds.landmark_files.landmarks import SPACES, BadLandmarkFile, Landmarks, Space, paired
-from gmds.landmark_files.plain import csv_text, parse_csv, parse_pts, parse_tps, parse_vts, pts_text, tps_text, vts_text
+from gmds.landmark_files.plain import parse_pts, parse_tps, parse_vts, pts_text, tps_text, vts_text
 from gmds.landmark_files.reading import read_text
 from gmds.landmark_files.slicer import fcsv_text, mrk_text, parse_fcsv, parse_mrk
+from gmds.landmark_files.table import csv_text, parse_csv
 
 __all__ = ["ENDINGS", "SPACES", "BadLandmarkFile", "Landmarks", "ending", "paired", "read_landmarks", "write_landmarks"]
 

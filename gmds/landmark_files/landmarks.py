@@ -24,7 +24,8 @@ class BadLandmarkFile(FormatError):
 
 @dataclass(frozen=True, eq=False)
 class Landmarks:
-    """Points of one surface: `at` is (k, 3) float64 positions or (k,) int64 vertices from 0, as `match` takes them.
+    """Points of one surface: `at` is (k, 3) float64 positions, (k,) int64 vertices from 0, or (k, 4) faces from 0 and
+    three barycentric weights, as `match` takes them.
 
     `names`: k different names. `named`: whether they were given; otherwise they are 1, 2, ... `missing`: names that
     are listed without a place. Raises `BadLandmarkFile` when a name is there twice or the shapes do not agree.
@@ -37,7 +38,7 @@ class Landmarks:
 
     def __post_init__(self) -> None:
         at = np.array(self.at, dtype=np.int64 if np.ndim(self.at) == 1 else np.float64)
-        if at.shape not in ((len(self.names),), (len(self.names), 3)):
+        if at.shape not in ((len(self.names),), (len(self.names), 3), (len(self.names), 4)):
             raise BadLandmarkFile(f"{len(self.names)} names for landmarks of shape {at.shape}")
         twice = [name for name, count in Counter(self.names).items() if count > 1]
         if twice:
@@ -56,15 +57,15 @@ class Landmarks:
     @property
     def positions(self) -> NDArray[np.float64]:
         """Positions (k, 3); raises `BadLandmarkFile` when vertices were given."""
-        if self.at.ndim != 2:
-            raise BadLandmarkFile("this format keeps positions, and the landmarks are vertices")
+        if self.at.shape[1:] != (3,):
+            raise BadLandmarkFile("this format keeps positions, and the landmarks are vertices or points of faces")
         return self.at
 
     @property
     def vertices(self) -> NDArray[np.int64]:
         """Vertices (k,) from 0; raises `BadLandmarkFile` when positions were given."""
         if self.at.ndim != 1:
-            raise BadLandmarkFile("this format keeps vertices, and the landmarks are positions")
+            raise BadLandmarkFile("this format keeps vertices, and the landmarks are no vertices")
         return self.at
 
 

@@ -1,0 +1,195 @@
+"""A folder of specimens and one landmarked template: a landmark table, its shapes, pictures, and what needs a look.
+
+python landmark_specimens.py                                              five built-in animals, one of them cut in half
+python landmark_specimens.py FOLDER --template T.ply --landmarks T.mrk.json [-o OUT]
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import drawing
+import numpy as np
+import procrustes
+from numpy.typing import NDArray
+
+import gmds
+from geodesics import Mesh, MeshError, read_mesh
+from geodesics.errors import FormatError
+from gmds.landmark_files import Landmarks, read_landmarks
+from gmds.landmark_transfer import carry_landmarks
+from gmds.shapes import quadruped
+from gmds.surface import Surface, measure
+from gmds.views import Direction
+
+Array = NDArray[np.float64]
+
+ENDINGS = (".ply", ".obj", ".off", ".stl", ".glb", ".vert")
+UP: dict[str, Direction] = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
+DOUBTFUL = 0.3  # confidence of a landmark below which it needs a look
+FAR = 3.0  # times the median distance from the mean shape beyond which a specimen does
+
+
+@dataclass(frozen=True)
+class Specimen:
+    """A specimen with the landmarks of the template on it, k each; `doubtful` (k,) are those that need a look."""
+
+    name: str
+    mesh: Mesh
+    status: gmds.MatchStatus
+    positions: Array
+    confidence: Array
+    valid: NDArray[np.bool_]
+
+    @property
+    def doubtful(self) -> NDArray[np.bool_]:
+        return ~self.valid | (self.confidence < DOUBTFUL)
+
+    @property
+    def configuration(self) -> Array:
+        """Positions (k, 3), NaN where the specimen has no such place."""
+        return np.where(self.valid[:, None], self.positions, np.nan)
+
+
+def landmarked(name: str, mesh: Mesh, template: Surface, marks: Landmarks) -> Specimen:
+    """The specimen, matched with the template."""
+    answer = gmds.match(template, mesh)
+    carried = carry_landmarks(answer, marks)
+    return Specimen(name, mesh, answer.status, carried.on_target.positions, carried.confidence, carried.valid)
+
+
+def reasons(specimens: list[Specimen], marks: Landmarks, distance: Array) -> Iterator[tuple[str, str]]:
+    """Who needs a look, and why."""
+    for specimen, far in zip(specimens, distance, strict=True):
+        if specimen.status is not gmds.MatchStatus.GOOD:
+            yield specimen.name, f"{specimen.status.name}: {specimen.status.value}"
+        for text, rows in (
+            ("no counterpart on the specimen", ~specimen.valid),
+            (f"confidence below {DOUBTFUL}", specimen.valid & (specimen.confidence < DOUBTFUL)),
+        ):
+            if rows.any():
+                yield specimen.name, f"{text}: {', '.join(marks.names[i] for i in np.flatnonzero(rows))}"
+        if far > FAR * np.nanmedian(distance):
+            yield specimen.name, f"{far / np.nanmedian(distance):.1f} times the median distance from the mean shape"
+
+
+def write_tables(out: Path, specimens: list[Specimen], marks: Landmarks) -> Array:
+    """landmarks.csv (a row a landmark), landmarks.tps, shapes.csv (a row a specimen); distances from the mean shape."""
+    with (out / "landmarks.csv").open("w", newline="") as stream:
+        table = csv.writer(stream)
+        table.writerow(["specimen", "landmark", "x", "y", "z", "confidence", "valid"])
+        for one in specimens:
+            rows = zip(marks.names, one.positions.tolist(), one.confidence, one.valid, strict=True)
+            table.writerows([one.name, name, *at, f"{trust:.4f}", int(valid)] for name, at, trust, valid in rows)
+    blocks = []
+    for one in specimens:
+        rows = "\n".join(" ".join(map(repr, at)) if valid else "NA NA NA" for at, valid in _placed(one))
+        blocks.append(f"LM3={len(marks)}\n{rows}\nID={one.name}\n")
+    (out / "landmarks.tps").write_text("\n".join(blocks))
+    try:
+        aligned, mean = procrustes.superimposed(np.stack([one.configuration for one in specimens]))
+    except ValueError as error:
+        print(f"no shapes.csv: {error}")
+        return np.full(len(specimens), np.nan)
+    distance = procrustes.distances(aligned, mean)
+    with (out / "shapes.csv").open("w", newline="") as stream:
+        table = csv.writer(stream)
+        axes = [f"{name}.{axis}" for name in marks.names for axis in "xyz"]
+        table.writerow(["specimen", "centroid_size", "distance_to_mean", *axes])
+        for one, shape, far in zip(specimens, aligned, distance, strict=True):
+            size = procrustes.centroid_size(one.positions) if one.valid.all() else "NA"
+            cells = ["NA" if np.isnan(x) else repr(float(x)) for x in shape.ravel()]
+            table.writerow([one.name, size, float(far), *cells])
+    return distance
+
+
+def _placed(one: Specimen) -> Iterator[tuple[list[float], bool]]:
+    return zip(one.positions.tolist(), one.valid.tolist(), strict=True)
+
+
+def run(
+    specimens: Iterator[tuple[str, Mesh]], template: Mesh, marks: Landmarks, out: Path, up: Direction = UP["z"]
+) -> list[Specimen]:
+    """Everything of a collection, into a folder; `up` is up in the pictures."""
+    (out / "pictures").mkdir(parents=True, exist_ok=True)
+    surface, done, to_look_at = measure(template), [], []
+    for name, mesh in specimens:
+        try:
+            done.append(landmarked(name, mesh, surface, marks))
+        except (MeshError, ArithmeticError) as error:
+            to_look_at.append((name, str(error)))
+            continue
+        drawing.draw(out / "pictures" / f"{name}.png", mesh, done[-1].positions, done[-1].doubtful, up)
+        print(f"{name}: {done[-1].status.name}, {int(done[-1].doubtful.sum())} of {len(marks)} landmarks doubtful")
+    if done:
+        to_look_at += reasons(done, marks, write_tables(out, done, marks))
+    with (out / "to_look_at.csv").open("w", newline="") as stream:
+        csv.writer(stream).writerows([("specimen", "why"), *to_look_at])
+    for name, why in to_look_at:
+        print(f"needs a look: {name}: {why}")
+    return done
+
+
+def in_folder(folder: Path, template: Path) -> Iterator[tuple[str, Mesh]]:
+    """The meshes of a folder but for the template; those that can not be read are told and left out."""
+    for path in sorted(folder.iterdir()):
+        if path.suffix.lower() in ENDINGS and path.resolve() != template.resolve():
+            try:
+                yield path.stem, read_mesh(path)
+            except (FormatError, MeshError) as error:
+                print(f"left out: {error}")
+
+
+def built_in(n_vertices: int = 1500) -> tuple[Mesh, Landmarks, dict[str, Mesh]]:
+    """An animal with landmarks, and others in other poses with parts of other sizes; the last lacks its hind half."""
+    template = quadruped(n_vertices=n_vertices)
+    x, y, z = template.rest.T
+    places = {
+        "nose": x.argmax(),
+        "left ear": (y + 4 * z).argmax(),
+        "right ear": (4 * z - y).argmax(),
+        "left fore foot": (x + y - 4 * z).argmax(),
+        "right fore foot": (x - y - 4 * z).argmax(),
+        "left hind foot": (y - x - 4 * z).argmax(),
+        "right hind foot": (-y - x - 4 * z).argmax(),
+        "tail": x.argmin(),
+        "withers": np.linalg.norm(template.rest - [0.35, 0, 1.2], axis=1).argmin(),
+    }
+    marks = Landmarks(tuple(places), np.array(list(places.values())))
+    large_head = quadruped("walk", head_scale=1.6, n_vertices=n_vertices, seed=1)
+    others = {
+        "large_head": large_head,
+        "long_legs": quadruped("graze", leg_scale=1.3, n_vertices=n_vertices, seed=2),
+        "small_ears": quadruped("turn", ear_scale=0.6, n_vertices=n_vertices, seed=3),
+        "long_tail": quadruped("walk", tail_scale=1.5, n_vertices=n_vertices, seed=4),
+    }
+    front = large_head.rest[large_head.faces][..., 0].mean(axis=1) > np.median(large_head.rest[:, 0])
+    others["front_half"] = Mesh(large_head.vertices, large_head.faces[front])
+    return template, marks, others
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """The command line."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", nargs="?", type=Path, help="meshes of the specimens")
+    parser.add_argument("--template", type=Path, help="the mesh that has landmarks")
+    parser.add_argument("--landmarks", type=Path, help="its landmarks: .csv, .mrk.json, .fcsv, .tps, .pts or .vts")
+    parser.add_argument("-o", "--output", type=Path, default=Path("morphometrics"), help="folder for the results")
+    parser.add_argument("--up", choices=UP, default="z", help="the axis of the meshes that points up in the pictures")
+    given = parser.parse_args(arguments)
+    if given.folder is None:
+        template, marks, others = built_in()
+        run(iter(others.items()), template, marks, given.output)
+        return
+    if given.template is None or given.landmarks is None:
+        parser.error("a folder needs --template and --landmarks")
+    specimens = in_folder(given.folder, given.template)
+    run(specimens, read_mesh(given.template), read_landmarks(given.landmarks), given.output, UP[given.up])
+
+
+if __name__ == "__main__":
+    main()

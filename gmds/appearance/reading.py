@@ -1,0 +1,93 @@
+"""Vertex colours, texture coordinates and the image of a mesh file."""
+
+from __future__ import annotations
+
+import io
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics import Mesh
+from geodesics.errors import FormatError, MissingExtra
+from geodesics.io.opening import read_bytes, sniff
+
+KINDS = ("obj", "ply", "glb")
+
+
+class BadLook(FormatError):
+    """A file whose colours or texture can not be used."""
+
+    code = "E217"
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """How a mesh looks: `colours` (n, 3 or 4) uint8 of vertices, or None; `uv` (m, 3, 2) float64 of the corners of its
+    faces, or None, from (0, 0) at the lower left of the `image`, a PIL image, or None."""
+
+    colours: NDArray[np.uint8] | None = None
+    uv: NDArray[np.float64] | None = None
+    image: Any = None
+
+
+def read_look(path: Path, mesh: Mesh, texture: Path | None = None) -> Look:
+    """The look of the mesh that was read from an OBJ, PLY or GLB file; `texture` is the image of its coordinates.
+
+    No file is opened that was not named: what an OBJ says about materials is not followed, a GLB has its image inside.
+    Raises `BadLook` (E217) where faces are in another order than in the file, as with several materials, or for an
+    image that can not be read, `MissingExtra` without Pillow.
+    """
+    data = read_bytes(path)
+    kind = sniff(data, path)
+    if kind not in KINDS:
+        return Look()
+    loaded = _loaded(data, kind, path)
+    corners = loaded.vertices[loaded.faces]
+    near = 1e-6 * np.abs(mesh.vertices).max()  # of single precision
+    if corners.shape != (mesh.n_faces, 3, 3) or np.abs(corners - mesh.vertices[mesh.faces]).max() > near:
+        raise BadLook(
+            f"{path}: its faces are not in one piece; join its parts and materials into one and save it again"
+        )
+    visual = loaded.visual
+    if getattr(visual, "uv", None) is not None:
+        image = _image_inside(visual) if kind == "glb" else None
+        image = image if texture is None else _image(texture)
+        return Look(None, np.asarray(visual.uv, dtype=np.float64)[loaded.faces], image)
+    if visual.kind == "vertex":
+        colours = np.full((mesh.n_vertices, 4), 255, dtype=np.uint8)
+        colours[mesh.faces] = np.asarray(visual.vertex_colors, dtype=np.uint8)[loaded.faces]
+        return Look(colours if (colours[:, 3] < 255).any() else colours[:, :3])
+    return Look()
+
+
+def _loaded(data: bytes, kind: str, path: Path) -> Any:
+    import trimesh
+
+    try:
+        loaded = trimesh.load(io.BytesIO(data), file_type=kind, process=False)
+    except Exception as error:  # whatever a reader of others raises on what it does not know
+        raise BadLook(f"{path}: its colours can not be read ({type(error).__name__}: {error})") from error
+    if isinstance(loaded, trimesh.Scene):
+        loaded = loaded.to_geometry()
+    return loaded
+
+
+def _image_inside(visual: Any) -> Any:
+    material = getattr(visual, "material", None)
+    return getattr(material, "baseColorTexture", None) or getattr(material, "image", None)
+
+
+def _image(path: Path) -> Any:
+    try:
+        from PIL import Image
+    except ImportError as error:
+        raise MissingExtra("textures need Pillow; install it with: pip install 'gmds[viz]'") from error
+    try:
+        image = Image.open(io.BytesIO(read_bytes(path)))
+        image.load()
+    except (Image.DecompressionBombError, ValueError, SyntaxError, Image.UnidentifiedImageError) as error:
+        raise BadLook(f"{path} is no image that can be read ({error})") from error
+    return image

@@ -1,0 +1,156 @@
+"""Meshes with colours, textures and values, for other programs: .obj, .ply, .glb, .vtp."""
+
+from __future__ import annotations
+
+import base64
+import io
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics import Mesh
+from geodesics.io import atomic_write
+from gmds.appearance.reading import BadLook, Look
+
+ENDINGS = (".obj", ".ply", ".glb", ".vtp")
+Values = Mapping[str, NDArray[Any]]
+VTK = {"f8": "Float64", "f4": "Float32", "i8": "Int64", "i4": "Int32", "u1": "UInt8", "b1": "UInt8"}
+
+
+def write_look(path: Path, mesh: Mesh, look: Look, values: Values | None = None) -> list[Path]:
+    """Write a mesh with its look and values (n,) or (n, k) on its vertices, atomically; the files that were written.
+
+    .obj: colours behind positions, or texture coordinates, with a .mtl and a .png beside it; vertices stay as they are.
+    .glb: colours, or texture coordinates and the image; vertices are doubled along the seams of the texture, as the
+    format asks for. .ply: colours and values. .vtp (ParaView): values, and colours as one of them. Raises `BadLook`
+    (E217) for what a format can not keep.
+    """
+    ending, values = path.suffix.lower(), values or {}
+    if look.uv is not None and ending not in (".obj", ".glb"):
+        raise BadLook(f"{path}: a texture is kept in .obj or .glb")
+    if values and ending not in (".ply", ".vtp"):
+        raise BadLook(f"{path}: values are kept in .ply or .vtp; .obj and .glb have colours")
+    wrong = [name for name, array in values.items() if np.asarray(array).dtype.kind not in "fiub"]
+    if wrong:
+        raise BadLook(f"{path}: {wrong[0]} holds words; number them to keep them in {ending}")
+    if ending == ".obj":
+        files = _obj(path, mesh, look)
+    else:
+        encode = {".ply": _ply, ".vtp": _vtp, ".glb": _glb}[ending]
+        files = {path: encode(mesh, look, values)}
+    for name, content in files.items():
+        with atomic_write(name) as stream:
+            stream.write(content)
+    return list(files)
+
+
+def _obj(path: Path, mesh: Mesh, look: Look) -> dict[Path, bytes]:
+    rows = [" ".join(map(repr, row)) for row in mesh.vertices.tolist()]
+    if look.colours is not None:  # a custom that most programs follow
+        colours = np.round(look.colours[:, :3] / 255, 4).tolist()
+        rows = [f"{row} {' '.join(map(repr, colour))}" for row, colour in zip(rows, colours, strict=True)]
+    vertices = [f"v {row}" for row in rows]
+    if look.uv is None:
+        faces = [f"f {a} {b} {c}" for a, b, c in (mesh.faces + 1).tolist()]
+        return {path: _lines(vertices, faces)}
+    places, index = np.unique(look.uv.reshape(-1, 2), axis=0, return_inverse=True)
+    corners = np.stack([mesh.faces, index.reshape(-1, 3)], axis=2) + 1
+    faces = ["f " + " ".join(f"{v}/{t}" for v, t in row) for row in corners.tolist()]
+    coordinates = ["vt " + " ".join(map(repr, row)) for row in places.tolist()]
+    if look.image is None:
+        return {path: _lines(vertices, coordinates, faces)}
+    name = re.sub(r"\s", "_", path.stem)  # names with blanks are not read by all
+    material, image = path.with_name(f"{name}.mtl"), path.with_name(f"{name}.png")
+    head = [f"mtllib {material.name}"]
+    about = ["newmtl carried", "Kd 1 1 1", f"map_Kd {image.name}"]
+    return {
+        image: _png(look.image),
+        material: _lines(about),
+        path: _lines(head, vertices, coordinates, ["usemtl carried"], faces),
+    }
+
+
+def _lines(*blocks: list[str]) -> bytes:
+    return "".join(f"{line}\n" for block in blocks for line in block).encode("utf-8")
+
+
+def _png(image: Any) -> bytes:
+    out = io.BytesIO()
+    image.save(out, format="PNG")
+    return out.getvalue()
+
+
+def _ply(mesh: Mesh, look: Look, values: Values) -> bytes:
+    """Binary, in double precision; every column of the values is a property."""
+    names = {"f8": "double", "f4": "float", "i4": "int", "u1": "uchar"}
+    columns: dict[str, NDArray[Any]] = dict(zip("xyz", mesh.vertices.T, strict=True))
+    if look.colours is not None:
+        columns |= zip(("red", "green", "blue", "alpha"), look.colours.T, strict=False)
+    for name, array in values.items():
+        table = np.asarray(array).reshape(mesh.n_vertices, -1)
+        titles = [name] if table.shape[1] == 1 else [f"{name}_{i}" for i in range(table.shape[1])]
+        columns |= zip((re.sub(r"\W", "_", title) for title in titles), table.T, strict=True)
+    kinds = {name: _ply_kind(column) for name, column in columns.items()}
+    rows = np.empty(mesh.n_vertices, dtype=[(name, f"<{kind}") for name, kind in kinds.items()])
+    for name, column in columns.items():
+        rows[name] = column
+    faces = np.empty(mesh.n_faces, dtype=[("degree", "u1"), ("corners", "<i4", 3)])
+    faces["degree"], faces["corners"] = 3, mesh.faces
+    properties = "".join(f"property {names[kind]} {name}\n" for name, kind in kinds.items())
+    header = f"ply\nformat binary_little_endian 1.0\nelement vertex {mesh.n_vertices}\n{properties}"
+    header += f"element face {mesh.n_faces}\nproperty list uchar int vertex_indices\nend_header\n"
+    return header.encode("ascii") + rows.tobytes() + faces.tobytes()
+
+
+def _ply_kind(column: NDArray[Any]) -> str:
+    if column.dtype.kind == "f":
+        return "f4" if column.dtype.itemsize <= 4 else "f8"
+    if column.dtype == np.uint8 or column.dtype.kind == "b":
+        return "u1"
+    fits = len(column) == 0 or (column.min() >= -(2**31) and column.max() < 2**31)
+    return "i4" if fits else "f8"
+
+
+def _vtp(mesh: Mesh, look: Look, values: Values) -> bytes:
+    """XML PolyData with arrays in base64; VTK, which could write it, is larger than all the rest together."""
+    arrays = dict(values) if look.colours is None else {**values, "colours": look.colours}
+    n, m = mesh.n_vertices, mesh.n_faces
+    points = "".join(_vtk_array(name, np.asarray(array).reshape(n, -1)) for name, array in arrays.items())
+    cells = _vtk_array("connectivity", mesh.faces.reshape(-1, 1))
+    cells += _vtk_array("offsets", 3 * np.arange(1, m + 1)[:, None])
+    return (
+        '<?xml version="1.0"?>\n<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">'
+        f'<PolyData><Piece NumberOfPoints="{n}" NumberOfPolys="{m}" NumberOfVerts="0" NumberOfLines="0" '
+        f'NumberOfStrips="0"><PointData>{points}</PointData><Points>{_vtk_array("Points", mesh.vertices)}</Points>'
+        f"<Polys>{cells}</Polys></Piece></PolyData></VTKFile>\n"
+    ).encode()
+
+
+def _vtk_array(name: str, table: NDArray[Any]) -> str:
+    kind = table.dtype.kind + str(table.dtype.itemsize)
+    if kind not in VTK:
+        table, kind = table.astype(np.float64 if kind[0] == "f" else np.int64), "f8" if kind[0] == "f" else "i8"
+    content = np.ascontiguousarray(table, dtype=f"<{kind}").tobytes()
+    text = base64.b64encode(len(content).to_bytes(8, "little") + content).decode("ascii")
+    about = f'type="{VTK[kind]}" Name={quoteattr(name)} NumberOfComponents="{table.shape[1]}" format="binary"'
+    return f"<DataArray {about}>{text}</DataArray>"
+
+
+def _glb(mesh: Mesh, look: Look, _: Values) -> bytes:
+    import trimesh
+
+    if look.uv is None:
+        shape = trimesh.Trimesh(mesh.vertices, mesh.faces, vertex_colors=look.colours, process=False, validate=False)
+        return bytes(trimesh.exchange.gltf.export_glb(shape, include_normals=False))
+    corners = np.column_stack([mesh.faces.reshape(-1, 1).astype(np.float64), look.uv.reshape(-1, 2)])
+    split, index = np.unique(corners, axis=0, return_inverse=True)
+    material = trimesh.visual.material.PBRMaterial(baseColorTexture=look.image, metallicFactor=0.0, roughnessFactor=1.0)
+    visual = trimesh.visual.TextureVisuals(uv=split[:, 1:], material=material)
+    place, faces = mesh.vertices[split[:, 0].astype(np.int64)], index.reshape(-1, 3)
+    shape = trimesh.Trimesh(place, faces, visual=visual, process=False, validate=False)
+    return bytes(trimesh.exchange.gltf.export_glb(shape, include_normals=False))

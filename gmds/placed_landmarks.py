@@ -1,0 +1,48 @@
+"""Landmarks once they are points of both surfaces: what matching is told, what the map keeps, what its file says."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics import SurfacePoints
+from geodesics.errors import Note
+from gmds.correspondence import Correspondence
+from gmds.known import Known, Marks
+from gmds.problem import mixed
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedLandmarks:
+    """Landmarks as points of both surfaces, k each, with the `tolerance` (k,) of each and `notes` on what was moved."""
+
+    on_source: SurfacePoints
+    on_target: SurfacePoints
+    tolerance: NDArray[np.float64]
+    notes: tuple[Note, ...] = ()
+
+    @property
+    def known(self) -> Known:
+        """As the parts of matching see them."""
+        return Known(Marks.of(self.on_source), Marks.of(self.on_target), self.tolerance)
+
+    def described(self) -> dict[str, Any]:
+        """All of it, as JSON can carry it."""
+        sides = {"source": self.on_source, "target": self.on_target}
+        points = {
+            name: {"face": side.face.tolist(), "barycentric": side.barycentric.tolist()} for name, side in sides.items()
+        }
+        return {**points, "tolerance": self.tolerance.tolist(), "notes": [str(note) for note in self.notes]}
+
+    def pinned(self, found: Correspondence) -> Correspondence:
+        """The map with vertices that are hard landmarks sent exactly where they belong; what is inside a face stays."""
+        hard = np.flatnonzero((self.tolerance <= 0) & (self.on_source.barycentric.max(axis=1) >= 1 - 1e-9))
+        place = np.zeros(len(found.points), dtype=np.int64)
+        known = np.zeros(len(place), dtype=bool)
+        rows = self.on_source[hard].nearest_vertices()
+        place[rows], known[rows] = hard, True
+        points = mixed(known, self.on_target[place], found.points)
+        return replace(found, points=points, valid=found.valid | known)
