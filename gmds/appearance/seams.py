@@ -44,7 +44,8 @@ def carry_uv(answer: Correspondence, uv: Array) -> tuple[Array, NDArray[np.bool_
         patch = _patch(target, joined, int(face), place[row])
         found = np.stack([_looked_up(target, uv, patch, corner) for corner in place[row]])
         across[row] = np.abs(found - carried[row]).max() > SAME  # else it only looked as if
-        carried[row] = found
+        if across[row]:
+            carried[row] = found
     return carried, across
 
 
