@@ -262,6 +262,8 @@ def test_labels_go_by_majority(carry: list[object], tmp_path: Path, kind: str) -
     done(*carry, *options, "-o", tmp_path / "out.csv")
     assert [row[1].lstrip("'") for row in table(tmp_path / "out.csv")[1]] == carried.astype(str).tolist()
     assert ("'=leg" in (tmp_path / "out.csv").read_text()) == (kind == "word")
+    said = done(*carry, *options[:3], "-o", tmp_path / "out.vtp")
+    assert said.get("labels") == (["=leg", "ear", "tail"] if kind == "word" else None)
     assert (tmp_path / "p.png").stat().st_size > 5000
 
 

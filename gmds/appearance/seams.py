@@ -42,7 +42,10 @@ def carry_uv(answer: Correspondence, uv: Array) -> tuple[Array, NDArray[np.bool_
     middle = SurfacePoints.closest(target, place[rows].mean(axis=1)).face if len(rows) else rows
     for row, face in zip(rows, middle, strict=True):
         patch = _patch(target, joined, int(face), place[row])
-        carried[row] = [_looked_up(target, uv, patch, corner) for corner in place[row]]
+        found = np.stack([_looked_up(target, uv, patch, corner) for corner in place[row]])
+        across[row] = np.abs(found - carried[row]).max() > SAME  # else it only looked as if
+        if across[row]:
+            carried[row] = found
     return carried, across
 
 

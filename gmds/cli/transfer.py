@@ -67,9 +67,10 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
     them all the same. The picture shows the first column.
 
     The output is an array (.npy), a table (.csv), or the source with the values on its vertices: .ply and .vtp keep
-    all of them, .obj and .glb colours. Without --values the look of the target's file is carried: its vertex colours
-    (.ply, .obj, .glb), or its texture, to an .obj with a .mtl and a .png, or to a .glb. Where the texture is cut, faces
-    whose corners go to different sides take all of it from one side, stretched up to the seam; their number is told.
+    all of them (words by number, which is told), .obj and .glb colours. Without --values the look of the target's file
+    is carried: its vertex colours (.ply, .obj, .glb), or its texture, to an .obj with a .mtl and a .png, or to a .glb.
+    Where the texture is cut, faces whose corners go to different sides take all of it from one side, stretched up to
+    the seam; their number is told.
     A .glb with a texture is cut open along its seams: weld it (`gmds repair`), match that, and give the .glb to --look.
     """
     from geodesics import read_mesh
@@ -123,9 +124,15 @@ def _carry_values(answer: Correspondence, file: Path, kind: str, output: Path, p
         given = _as_colours(given, file)
     carried = _carried(answer, given, kind)
     table = carried.reshape(len(carried), -1)
+    result: dict[str, Any] = {"columns": table.shape[1], "carried": TOLD[kind]}
     if output.suffix.lower() in MESHES:
         from gmds.appearance import Look, write_look
 
+        if carried.dtype.kind == "U":  # meshes keep numbers
+            import numpy as np
+
+            words, number = np.unique(carried, return_inverse=True)
+            carried, result["labels"] = number.reshape(carried.shape), words.tolist()
         look, values = (Look(colours=carried), {}) if kind == "colours" else (Look(), {"value": carried})
         write_look(output, answer.source, look, values)
     else:
@@ -135,7 +142,7 @@ def _carry_values(answer: Correspondence, file: Path, kind: str, output: Path, p
     shown = _shown(given.reshape(len(given), -1)[:, 0], table[:, 0], labels=labels)
     captions = "target, values given", "source, values carried"
     draw(picture, list(zip(captions, (answer.target, answer.source), shown, strict=True)), labels=labels)
-    return {"columns": table.shape[1], "carried": TOLD[kind]}
+    return result
 
 
 def _carried(answer: Correspondence, given: NDArray[Any], kind: str) -> NDArray[Any]:
