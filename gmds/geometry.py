@@ -163,5 +163,5 @@ def _can_be_collapsed(faces: Index) -> bool:
     import igl
 
     directed = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
-    one_way = len(np.unique(directed, axis=0)) == len(directed)
-    return bool(one_way and igl.is_edge_manifold(faces) and np.all(igl.is_vertex_manifold(faces)))
+    one_way = len(np.unique(directed, axis=0)) == len(directed)  # so that no edge has more than two faces
+    return bool(one_way and np.all(igl.is_vertex_manifold(faces)))
