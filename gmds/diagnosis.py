@@ -29,13 +29,13 @@ REQUIRED = (
 )
 EXTRAS = {
     "viz": (
-        ("matplotlib>=3.8", "plotly>=6", "pyvista>=0.44"),
+        ("matplotlib>=3.8", "plotly>=6", "pyvista>=0.44", "pillow>=10"),
         "pictures; pages and reports need neither it nor a browser here",
     ),
     "repair": (("pymeshlab>=2023.12",), "closing holes and remeshing in `gmds repair`"),
     "batch": (("distributed>=2024.1",), "`gmds batch`"),
 }
-MODULES = {"libigl": "igl", "tomli-w": "tomli_w"}  # modules that are not called as their package
+MODULES = {"libigl": "igl", "tomli-w": "tomli_w", "pillow": "PIL"}  # modules that are not called as their package
 PATIENCE = 120  # seconds that an import may take
 
 State = Literal["ok", "absent", "problem"]

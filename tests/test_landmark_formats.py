@@ -120,6 +120,19 @@ def test_points_without_a_place_are_told(tmp_path: Path) -> None:
         read_landmarks(written(tmp_path, "a.mrk.json", markups({**nowhere, "label": ""}, {**there, "label": ""})))
 
 
+def test_points_of_faces_come_back(tmp_path: Path) -> None:
+    marks = Landmarks(("a", "b"), [[3, 0.25, 0.5, 0.25], [0, 1, 0, 0]])
+    write_landmarks(tmp_path / "m.csv", marks, columns={"valid": [1, 0]})
+    assert (tmp_path / "m.csv").read_text().splitlines()[1] == "a,3,0.25,0.5,0.25,1"
+    again = read_landmarks(tmp_path / "m.csv")
+    assert again.names == marks.names and np.array_equal(again.at, marks.at)
+    (tmp_path / "bad.csv").write_text("name,face,w0,w1,w2\na,0.5,1,0,0\n")
+    with pytest.raises(BadLandmarkFile, match=r"line 2: '0.5' is not a whole number"):
+        read_landmarks(tmp_path / "bad.csv")
+    with pytest.raises(BadLandmarkFile, match="keeps positions"):
+        write_landmarks(tmp_path / "m.pts", marks)
+
+
 @pytest.mark.parametrize(
     ("name", "text", "message"),
     [
@@ -171,19 +184,6 @@ def test_points_without_a_place_are_told(tmp_path: Path) -> None:
         ("a.json", "{}", "files that end in"),
     ],
 )
-def test_points_of_faces_come_back(tmp_path: Path) -> None:
-    marks = Landmarks(("a", "b"), [[3, 0.25, 0.5, 0.25], [0, 1, 0, 0]])
-    write_landmarks(tmp_path / "m.csv", marks, columns={"valid": [1, 0]})
-    assert (tmp_path / "m.csv").read_text().splitlines()[1] == "a,3,0.25,0.5,0.25,1"
-    again = read_landmarks(tmp_path / "m.csv")
-    assert again.names == marks.names and np.array_equal(again.at, marks.at)
-    (tmp_path / "bad.csv").write_text("name,face,w0,w1,w2\na,0.5,1,0,0\n")
-    with pytest.raises(BadLandmarkFile, match=r"line 2: '0.5' is not a whole number"):
-        read_landmarks(tmp_path / "bad.csv")
-    with pytest.raises(BadLandmarkFile, match="keeps positions"):
-        write_landmarks(tmp_path / "m.pts", marks)
-
-
 def test_errors_name_file_and_line(tmp_path: Path, name: str, text: str, message: str) -> None:
     with pytest.raises(BadLandmarkFile, match=message) as caught:
         read_landmarks(written(tmp_path, name, text))
