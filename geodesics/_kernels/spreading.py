@@ -28,7 +28,7 @@ def closer_rows(rows: Array, label: Index, linked: bool, row: int, nearest: Arra
             total += gap * gap
             if total >= limit:
                 break
-        if np.sqrt(total) < nearest[i]:
+        if total < limit and np.sqrt(total) < nearest[i]:
             where[count], values[count] = i, np.sqrt(total)
             count += 1
     return where[:count], values[:count]

@@ -6,8 +6,9 @@ import csv
 from pathlib import Path
 
 from gmds.errors import BadPairList
+from gmds.text_file import read_text
 
-MOST_BYTES = 1 << 28
+LARGEST = 1 << 28  # bytes
 HEADER = ("source", "target")
 
 
@@ -17,12 +18,10 @@ def read_list(path: Path) -> tuple[list[Path], list[tuple[Path, Path]] | None]:
     A line is `A,B` as CSV, or one file; paths are relative to the list. Empty lines, lines that start with `#` and a
     first line `source,target` do not count. Raises `BadPairList` (E214) naming the line, `OSError`.
     """
-    if path.exists() and not path.is_file():  # opening a pipe would wait for ever
+    if path.exists() and not path.is_file():
         raise BadPairList(f"{path} is neither a folder nor a file")
-    if path.stat().st_size > MOST_BYTES:
-        raise BadPairList(f"{path} has more than {MOST_BYTES} bytes; a list names one pair a line")
     try:
-        lines = path.read_text("utf-8-sig").splitlines()
+        lines = read_text(path, BadPairList, LARGEST).splitlines()
     except UnicodeDecodeError as error:
         raise BadPairList(f"{path} is not UTF-8 text ({error})") from error
     rows: list[tuple[Path, ...]] = []

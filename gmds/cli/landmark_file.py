@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from gmds.landmark_files import BadLandmarkFile
-from gmds.landmark_files.reading import NUMBER, WHOLE, read_text
+from gmds.landmark_files.reading import NUMBER, WHOLE, landmark_text
 from gmds.landmarks import SoftLandmarks
 
 WIDTHS = (2, 6, 8)  # entries of both points
@@ -26,7 +26,7 @@ def read_landmarks(path: Path) -> Any:
     """
     if path.suffix.lower() == ".npz":
         return _of_map(path)
-    text = read_text(path)
+    text = landmark_text(path)
     rows = [(number, _words(line)) for number, line in enumerate(text.splitlines(), start=1)]
     rows = [(number, words) for number, words in rows if words]
     if not rows:

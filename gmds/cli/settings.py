@@ -74,14 +74,11 @@ def read_settings(path: Path) -> Tables:
 
 
 def _parsed(path: Path) -> Tables:
-    if path.exists() and not path.is_file():  # opening a pipe would wait for ever
-        raise OSError(f"{path} is not a regular file")
     from gmds.errors import BadSetting
+    from gmds.text_file import read_text
 
-    if path.stat().st_size > LARGEST:
-        raise BadSetting(f"{path} is larger than {LARGEST // 1_000_000} MB")
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
+        return tomllib.loads(read_text(path, BadSetting, LARGEST))
     except (ValueError, RecursionError) as error:  # of TOML and of UTF-8
         raise BadSetting(f"{path} is no TOML: {error}") from error
 

@@ -24,7 +24,7 @@ from pathlib import Path
 
 from gmds.landmark_files.landmarks import SPACES, BadLandmarkFile, Landmarks, Space, paired
 from gmds.landmark_files.plain import parse_pts, parse_tps, parse_vts, pts_text, tps_text, vts_text
-from gmds.landmark_files.reading import read_text
+from gmds.landmark_files.reading import landmark_text
 from gmds.landmark_files.slicer import fcsv_text, mrk_text, parse_fcsv, parse_mrk
 from gmds.landmark_files.table import csv_text, parse_csv
 
@@ -59,7 +59,7 @@ def read_landmarks(path: str | os.PathLike[str], space: Space = "LPS") -> Landma
     Raises `BadLandmarkFile` (E306) naming the line or the control point, and `OSError` when it can not be opened.
     """
     parse, _ = _FORMATS[ending(path)]
-    return parse(Path(path), read_text(Path(path)), space)
+    return parse(Path(path), landmark_text(Path(path)), space)
 
 
 def write_landmarks(

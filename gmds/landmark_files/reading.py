@@ -8,20 +8,17 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from gmds.landmark_files.landmarks import BadLandmarkFile, Landmarks
+from gmds.text_file import read_text
 
 LARGEST = 50_000_000  # bytes
 WHOLE = r"[+-]?\d{1,18}"
 NUMBER = r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?"
 
 
-def read_text(path: Path) -> str:
+def landmark_text(path: Path) -> str:
     """The content of a UTF-8 file of at most 50 MB. Raises `BadLandmarkFile`, or `OSError` for what is no file."""
-    if path.exists() and not path.is_file():  # opening a pipe would wait for ever
-        raise OSError(f"{path} is not a regular file")
-    if path.stat().st_size > LARGEST:
-        raise BadLandmarkFile(f"{path} is larger than {LARGEST // 1_000_000} MB")
     try:
-        return path.read_text(encoding="utf-8-sig")
+        return read_text(path, BadLandmarkFile, LARGEST)
     except UnicodeDecodeError as error:
         raise BadLandmarkFile(f"{path} is not UTF-8 text ({error})") from error
 

@@ -1,0 +1,17 @@
+"""Text files that people write: settings, landmarks, lists of pairs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+
+def read_text(path: Path, too_large: type[Exception], largest: int) -> str:
+    """The content of a UTF-8 file of at most `largest` bytes.
+
+    Raises `too_large`, `UnicodeDecodeError`, and `OSError` for what is not there or no regular file.
+    """
+    if path.exists() and not path.is_file():  # opening a pipe would wait for ever
+        raise OSError(f"{path} is not a regular file")
+    if path.stat().st_size > largest:
+        raise too_large(f"{path} is larger than {largest // 1_000_000} MB")
+    return path.read_text(encoding="utf-8-sig")
