@@ -23,23 +23,23 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from fuzz_targets import TARGETS, Target, beside
+from fuzz_targets import TARGETS, Target, lay_beside
 
 RESULTS = Path(__file__).resolve().parent / "results"
 CHUNK = 20_000  # files a child process
 SECONDS, MEMORY = 5, 2 << 30
 PIECES = [b"-1", b"1e999", b"nan", b"inf", b"1e400", b"9" * 9, b"9" * 20, b"2147483648", b"4294967297", b"1_0", b"0x1",
           b",", b"\0", b"\xff", b"#", b"\n", b"\r", b" ", b"\t", b"{", b"[", b'"', b"=", b"\xef\xbb\xbf",
-
+          b"null", b"true", b"[]", b"{}", b'""', b"0", b"-7.5", b'"a": 1, ', b"[matching]\n",
           b"\xff\xff\xff\xff", b"\x00\x00\x00\x80", b"\x00\x00\xc0\x7f", b"PK\x03\x04",
           b"3 0 1 2\n", b"element face 9\n"]  # fmt: skip
-CODES = ("E1", "E2", "E3")
+CODES = ("E1", "E2", "E3", "E6")
 
 
 def damaged(sound: list[bytes], rng: np.random.Generator) -> bytes:
     """One of the sound files after one to four damages."""
     content = bytearray(sound[rng.integers(len(sound))])
-    for _ in range(rng.integers(1, 5)):
+    for _ in range(min(rng.geometric(0.5), 4)):
         at, size = int(rng.integers(len(content) + 1)), int(rng.integers(1, 17))
         match int(rng.integers(8)):
             case 0:
@@ -78,11 +78,11 @@ def run(name: str, seed: int, files: range, folder: Path) -> dict[str, Any]:
     """Counts of what came of these files."""
     target = TARGETS[name]
     sound, path = target.sound(), folder / target.name
-    beside(target, folder)
+    lay_beside(target, folder)
     found: dict[str, Any] = {"answered": 0, "refused": 0, "failures": [], "slowest": 0.0}
     warnings.simplefilter("error")
     for number in files:
-        path.write_bytes(damaged(sound, np.random.default_rng([seed, number])))
+        path.write_bytes(target.packed(damaged(sound, np.random.default_rng([seed, number]))))
         start = time.process_time()
         signal.setitimer(signal.ITIMER_PROF, SECONDS)
         try:
