@@ -140,7 +140,9 @@ def _cross(ends: Pair, slopes: Pair, weights: Pair, length: float, x: float, y: 
         tilt += m0 * (1.0 - t) * (1.0 - 3.0 * t) + m1 * t * (3.0 * t - 2.0)
         plain = ys * ys / (r0 * r0 * r0) + w * y * y / (r1 * r1 * r1)
         bend = max(plain + (m0 * (6.0 * t - 4.0) + m1 * (6.0 * t - 2.0)) / length, 0.2 * plain)
-        at = min(max(at - tilt / bend, 0.0), length)
+        at -= tilt / bend
+        if not 0.0 < at < length:  # round an end of the edge, which is as long as along the other edge from there
+            return math.inf, 0.0
     t, w = at / length, w0 + (w1 - w0) * at / length
     r0, r1 = math.sqrt((at - xs) * (at - xs) + ys * ys), math.sqrt((at - x) * (at - x) + y * y)
     return r0 + w * r1 + length * t * (1.0 - t) * (m0 * (1.0 - t) - m1 * t), at
