@@ -6,12 +6,16 @@ MATLAB files are not among them: damaged ones end the process that reads them, w
 from __future__ import annotations
 
 import functools
+import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
+
 from file_cases import F_TEXT, OBJ, OFF, PLY, STL, STL_BINARY, V_TEXT, binary_ply, glb
 from fuzz_contents import (
     LISTED,
