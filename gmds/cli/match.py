@@ -10,16 +10,18 @@ import click
 from gmds.cli.landmark_options import given_landmarks, space_option, tolerance_option
 from gmds.cli.matching_options import matching_arguments, matching_options
 from gmds.cli.output import emit, json_option, note, progress_bar
+from gmds.cli.paths import EndingIn
 from gmds.cli.settings import ConfiguredCommand
 from gmds.cli.views import view_options, write_views
 
 FILE = click.Path(path_type=Path)
+MAP = EndingIn(".npz", "")
 
 
 @click.command("match", cls=ConfiguredCommand, short_help="Match two meshes and write the map.")
 @click.argument("source", type=FILE)
 @click.argument("target", type=FILE)
-@click.option("-o", "--output", default="map.npz", show_default=True, type=FILE, help="Where the map goes.")
+@click.option("-o", "--output", default="map.npz", show_default=True, type=MAP, help="Where the map goes.")
 @view_options
 @click.option("--landmarks", type=FILE, multiple=True, help="Known points; given once or twice, see above.")
 @space_option
