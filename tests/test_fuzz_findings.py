@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from file_cases import PLY, binary_ply
 from shapes import icosphere
 
-from geodesics import SurfacePoints, read_mesh
+from geodesics import FormatError, SurfacePoints, read_mesh
 from gmds import Correspondence, __version__
 from gmds.appearance.reading import BadLook, read_look
 from gmds.cli.settings import read_settings
@@ -80,6 +81,15 @@ def test_a_picture_that_ends_too_soon_is_no_texture(cut: int, tmp_path: Path) ->
     mesh.write_text(TEXTURED)
     with pytest.raises(BadLook, match=r"E217.*a.png is no image"):
         read_look(mesh, read_mesh(mesh), tmp_path / "a.png")
+
+
+@pytest.mark.parametrize("element", ["vertex", "face"])
+@pytest.mark.parametrize("content", [PLY.encode(), binary_ply()])
+def test_an_element_of_a_ply_that_is_declared_twice(element: str, content: bytes, tmp_path: Path) -> None:
+    line = f"element {element} 4\n".encode()
+    (tmp_path / "a.ply").write_bytes(content.replace(line, 2 * line))
+    with pytest.raises(FormatError, match=f"element {element} twice"):
+        read_mesh(tmp_path / "a.ply")
 
 
 def test_listings_of_pairs_are_text(tmp_path: Path) -> None:

@@ -37,7 +37,11 @@ class Element:
 def read_ply(data: bytes, path: Path) -> Contents:
     """An ASCII or binary PLY file with elements vertex (x, y, z) and face (vertex_indices); others are passed over."""
     elements, is_ascii, body, n_lines = _read_header(data, path)
-    by_name = {element.name: element for element in elements}
+    by_name: dict[str, Element] = {}
+    for element in elements:
+        if element.name in by_name:
+            raise FormatError(f"{path}: the header declares element {element.name[:40]} twice")
+        by_name[element.name] = element
     for name, needed in (("vertex", ("x", "y", "z")), ("face", ())):
         if name in by_name and not set(needed) <= set(by_name[name].properties):
             raise FormatError(f"{path}: element {name} lacks one of the properties {', '.join(needed)}")
