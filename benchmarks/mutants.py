@@ -1,9 +1,11 @@
 """Mutation testing of the door: validators, readers, map algebra. Small faults, one at a time; do the tests notice?
 
-    python benchmarks/mutants.py --each 40 --seed 0
+    python benchmarks/mutants.py --each 25 --seed 0
 
 Faults are drawn at random (`mutant.py` says which kinds there are); only the tests named here run for a module, until
 one fails. Writes results/mutants.csv, where what is done already is kept, and results/mutants.md with the survivors.
+A fault belongs to the text of its module: when that changes, what was done for it counts no more. Another seed draws
+faults that no earlier seed has drawn: tests that were written for the survivors of one seed are judged by the next.
 """
 
 from __future__ import annotations
@@ -16,7 +18,9 @@ import signal
 import sys
 import tempfile
 import time
+import zlib
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from markdown import table
@@ -50,13 +54,30 @@ MODULES: dict[str, tuple[str, ...]] = {
         for name in ("landmarks", "plain", "reading", "slicer")
     },
 }
-COLUMNS = ("module", "number", "killed", "where")
-Done = dict[tuple[str, int], tuple[bool, str]]
+
+
+class Fault(NamedTuple):
+    """One fault: what became of it, and the digest of the text of the module that it was put into."""
+
+    module: str
+    number: int
+    seed: int
+    killed: bool
+    where: str
+    digest: str
+
+
+Done = dict[tuple[str, int], Fault]
 
 
 def source(module: str) -> str:
     """The text of a module."""
     return (ROOT / f"{module.replace('.', '/')}.py").read_text(encoding="utf-8")
+
+
+def digest(module: str) -> str:
+    """What the text of a module is known by."""
+    return f"{zlib.crc32(source(module).encode()):08x}"
 
 
 def killed(module: str, number: int, hook: Path) -> bool:
@@ -84,43 +105,50 @@ def killed(module: str, number: int, hook: Path) -> bool:
 
 
 def read(path: Path) -> Done:
-    """What was done before."""
+    """What was done before, for modules that are as they were then."""
     if not path.exists():
         return {}
     with path.open(newline="", encoding="utf-8") as stream:
-        return {
-            (row["module"], int(row["number"])): (row["killed"] == "True", row["where"])
-            for row in csv.DictReader(stream)
-        }
+        _, *lines = csv.reader(stream)
+    rows = [Fault(name, int(at), int(seed), was == "True", where, text) for name, at, seed, was, where, text in lines]
+    return {(row.module, row.number): row for row in rows if row.digest == digest(row.module)}
 
 
 def write(path: Path, done: Done) -> None:
     """All that is done."""
     with path.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(COLUMNS)
-        writer.writerows((*key, *value) for key, value in sorted(done.items()))
+        writer.writerow(Fault._fields)
+        writer.writerows(sorted(done.values()))
+
+
+def share(faults: list[Fault]) -> tuple[int, int, str]:
+    """Faults, how many of them were noticed, and the share."""
+    noticed = sum(fault.killed for fault in faults)
+    return len(faults), noticed, f"{100 * noticed / max(1, len(faults)):.1f} %"
 
 
 def page(done: Done) -> str:
-    """The figures by module, and the survivors."""
-    rows: list[tuple[object, ...]] = []
-    for module in dict.fromkeys(name for name, _ in sorted(done)):
-        here = [was for (name, _), (was, _) in done.items() if name == module]
-        rows.append(
-            (f"`{module}`", places(source(module)), len(here), sum(here), f"{100 * sum(here) / len(here):.0f} %")
-        )
-    every = [was for was, _ in done.values()]
-    rows.append(("all", "", len(every), sum(every), f"{100 * sum(every) / max(1, len(every)):.1f} %"))
+    """The figures by seed and by module, and the survivors."""
+    every = sorted(done.values())
+    seeds = [
+        (seed, *share([fault for fault in every if fault.seed == seed])) for seed in sorted({f.seed for f in every})
+    ]
+    modules = [
+        (f"`{module}`", places(source(module)), *share([fault for fault in every if fault.module == module]))
+        for module in dict.fromkeys(fault.module for fault in every)
+    ]
     lines = [
         "# Mutation testing",
         "",
-        "`python benchmarks/mutants.py`: faults put in at random, and whether the tests notice.",
+        "`python benchmarks/mutants.py`: faults put in at random, and whether the tests notice. Each seed draws faults",
+        "that no earlier one has drawn. Tests were written after the survivors of seed 0 were known, and before seed 1.",
         "",
     ]
-    lines += table(["module", "places", "faults", "noticed", "share"], rows)
-    survivors = [(f"`{name}`", where) for (name, _), (was, where) in sorted(done.items()) if not was]
-    return "\n".join([*lines, "Not noticed:", "", *table(["module", "where"], survivors)])
+    lines += table(["seed", "faults", "noticed", "share"], [*seeds, ("all", *share(every))])
+    lines += table(["module", "places", "faults", "noticed", "share"], modules)
+    survivors = [(f"`{fault.module}`", fault.seed, fault.where) for fault in every if not fault.killed]
+    return "\n".join([*lines, "Not noticed:", "", *table(["module", "seed", "where"], survivors)])
 
 
 def main() -> None:
@@ -142,11 +170,14 @@ def main() -> None:
                 said = (Path(hook) / "said.txt").read_text(encoding="utf-8", errors="replace")
                 sys.exit(f"the tests of {module} fail without any fault:\n{said[-3000:]}")
             rng = np.random.default_rng([options.seed, *module.encode()])
-            for number in map(int, rng.permutation(places(source(module)))[: options.each]):
-                if (known := done.get((module, number))) and (known[0] or not options.again):
+            order = [(module, int(number)) for number in rng.permutation(places(source(module)))]
+            fresh = [key for key in order if key not in done or done[key].seed == options.seed]
+            for key in fresh[: options.each]:
+                if key in done and (done[key].killed or not options.again):
                     continue
-                done[module, number] = killed(module, number, Path(hook)), faulty(source(module), number)[1]
-                print(module, *done[module, number], file=sys.stderr, flush=True)
+                was, where = killed(*key, Path(hook)), faulty(source(module), key[1])[1]
+                done[key] = Fault(*key, options.seed, was, where, digest(module))
+                print(*done[key], file=sys.stderr, flush=True)
                 write(path, done)
                 (RESULTS / "mutants.md").write_text(page(done), encoding="utf-8")
 
