@@ -142,7 +142,7 @@ def page(done: Done) -> str:
         "# Mutation testing",
         "",
         "`python benchmarks/mutants.py`: faults put in at random, and whether the tests notice. Each seed draws faults",
-        "that no earlier one has drawn. Tests were written after the survivors of seed 0 were known, and before seed 1.",
+        "that no earlier one has drawn. Tests were written for the survivors of seed 0, and none for those of seed 1.",
         "",
     ]
     lines += table(["seed", "faults", "noticed", "share"], [*seeds, ("all", *share(every))])
