@@ -30,13 +30,14 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
 RESULTS = HERE / "results"
 SECONDS = 120  # of processor time; a fault that makes a loop endless is noticed as well
-READERS = ("test_io", "test_bad_files", "test_truncation", "test_damage")
+SHARED = ("pytest", "hypothesis.extra.numpy", "igl", "numba", "scipy.sparse.linalg", "scipy.spatial", "trimesh")
+READERS = ("test_bad_files", "test_io", "test_truncation", "test_damage")  # those that notice most come first
 MODULES: dict[str, tuple[str, ...]] = {
     "geodesics._validation": ("test_bad_arrays", "test_points", "test_mesh"),
     "geodesics._duck": ("test_bad_arrays",),
     "geodesics.check": ("test_check", "test_repair"),
-    "geodesics.repair": ("test_repair",),
-    "geodesics.splitting": ("test_repair",),
+    "geodesics.repair": ("test_repair", "test_remeshing"),
+    "geodesics.splitting": ("test_splitting",),
     "geodesics.orientation": ("test_check", "test_repair"),
     "geodesics.memory": ("test_memory",),
     **{f"geodesics.io.{name}": READERS for name in ("glb", "obj", "off", "opening", "ply", "stl", "text", "tosca")},
@@ -159,8 +160,16 @@ def main() -> None:
     parser.add_argument("--only", choices=list(MODULES), action="append")
     parser.add_argument("--again", action="store_true", help="run those again that were not noticed")
     options = parser.parse_args()
-    for shared in ("pytest", "scipy.sparse", "scipy.spatial", "trimesh"):  # by all forks
-        importlib.import_module(shared)
+    for shared in (
+        "pytest",
+        "hypothesis.extra.numpy",
+        "igl",
+        "numba",
+        "scipy.sparse.linalg",
+        "scipy.spatial",
+        "trimesh",
+    ):
+        importlib.import_module(shared)  # by all forks
     path = RESULTS / "mutants.csv"
     done = read(path)
     with tempfile.TemporaryDirectory() as hook:
