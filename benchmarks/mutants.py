@@ -30,7 +30,7 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
 RESULTS = HERE / "results"
 SECONDS = 120  # of processor time; a fault that makes a loop endless is noticed as well
-SHARED = ("pytest", "hypothesis.extra.numpy", "igl", "numba", "scipy.sparse.linalg", "scipy.spatial", "trimesh")
+SHARED = ("pytest", "hypothesis.extra.numpy", "igl", "numba", "scipy.sparse.linalg", "scipy.spatial", "trimesh")  # by all forks
 READERS = ("test_bad_files", "test_io", "test_truncation", "test_damage")  # those that notice most come first
 MODULES: dict[str, tuple[str, ...]] = {
     "geodesics._validation": ("test_bad_arrays", "test_points", "test_mesh"),
@@ -50,10 +50,10 @@ MODULES: dict[str, tuple[str, ...]] = {
     "gmds.map_file": ("test_map_file", "test_npz_file"),
     "gmds.algebra": ("test_correspondence",),
     "gmds.correspondence": ("test_correspondence", "test_map_file"),
-    **{
-        f"gmds.landmark_files.{name}": ("test_landmark_formats",)
-        for name in ("landmarks", "plain", "reading", "slicer")
-    },
+    **dict.fromkeys(
+        [f"gmds.landmark_files.{name}" for name in ("landmarks", "plain", "reading", "slicer")],
+        ("test_landmark_formats",),
+    ),
 }
 
 
@@ -81,22 +81,31 @@ def digest(module: str) -> str:
     return f"{zlib.crc32(source(module).encode()):08x}"
 
 
+def run_tests(module: str, number: int, hook: Path) -> int:
+    """What pytest answers when the module has the fault; its words go to a file."""
+    import pytest
+
+    said = os.open(hook / "said.txt", os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
+    os.dup2(said, 1)
+    os.dup2(said, 2)
+    signal.setitimer(signal.ITIMER_PROF, SECONDS)
+    path = os.pathsep.join((str(hook), str(HERE), os.environ.get("PYTHONPATH", "")))
+    os.environ.update(GMDS_MUTANT=f"{module}:{number}", PYTHONPATH=path)
+    install()
+    os.chdir(ROOT)
+    tests = [f"tests/{name}.py" for name in MODULES[module]]
+    early = "ignore::pytest.PytestAssertRewriteWarning"  # hypothesis is there before pytest
+    return int(pytest.main(["-x", "-q", "-W", early, "-p", "no:cacheprovider", *tests])) & 127
+
+
 def killed(module: str, number: int, hook: Path) -> bool:
     """Whether the tests notice the fault; they run in a fork, so that what all have in common is imported once."""
     child = os.fork()
     if child == 0:
-        import pytest
-
-        quiet = os.open(hook / "said.txt", os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
-        os.dup2(quiet, 1)
-        os.dup2(quiet, 2)
-        signal.setitimer(signal.ITIMER_PROF, SECONDS)
-        paths = (str(hook), str(HERE), os.environ.get("PYTHONPATH", ""))
-        os.environ.update(GMDS_MUTANT=f"{module}:{number}", PYTHONPATH=os.pathsep.join(paths))
-        install()
-        os.chdir(ROOT)
-        tests = [f"tests/{name}.py" for name in MODULES[module]]
-        os._exit(int(pytest.main(["-x", "-q", "-p", "no:cacheprovider", *tests])) & 127)
+        try:
+            os._exit(run_tests(module, number, hook))
+        finally:
+            os._exit(1)
     deadline = time.monotonic() + 20 * SECONDS
     while (status := os.waitpid(child, os.WNOHANG)) == (0, 0):
         if time.monotonic() > deadline:
@@ -139,9 +148,8 @@ def page(done: Done) -> str:
         (f"`{module}`", places(source(module)), *share([fault for fault in every if fault.module == module]))
         for module in dict.fromkeys(fault.module for fault in every)
     ]
-    lines = [
-        "# Mutation testing",
-        "",
+    lines = ["# Mutation testing", ""]
+    lines += [
         "`python benchmarks/mutants.py`: faults put in at random, and whether the tests notice. Each seed draws faults",
         "that no earlier one has drawn. Tests were written for the survivors of seed 0, and none for those of seed 1.",
         "",
@@ -160,16 +168,8 @@ def main() -> None:
     parser.add_argument("--only", choices=list(MODULES), action="append")
     parser.add_argument("--again", action="store_true", help="run those again that were not noticed")
     options = parser.parse_args()
-    for shared in (
-        "pytest",
-        "hypothesis.extra.numpy",
-        "igl",
-        "numba",
-        "scipy.sparse.linalg",
-        "scipy.spatial",
-        "trimesh",
-    ):
-        importlib.import_module(shared)  # by all forks
+    for shared in SHARED:
+        importlib.import_module(shared)
     path = RESULTS / "mutants.csv"
     done = read(path)
     with tempfile.TemporaryDirectory() as hook:

@@ -52,7 +52,7 @@ def read_in_child(jobs: list[dict[str, Any]]) -> list[dict[str, Any]]:
         input="\n".join(map(json.dumps, jobs)),
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=900,
         cwd=Path(__file__).parent.parent,
     )
     outcomes = [json.loads(line) for line in run.stdout.splitlines()]
