@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from measured import area, warnings
-from shapes import bumpy_sphere, icosphere, joined, rectangle, torus
+from shapes import bumpy_sphere, icosphere, jittered, joined, moved, rectangle, torus
 
 from geodesics import Mesh, MeshError, _meshlab
 from geodesics.check import check
@@ -25,8 +25,11 @@ def punctured(mesh: Mesh, vertex: int = 3) -> Mesh:
 @pytest.mark.parametrize("scale", [1e-9, 1.0, 1e9])
 def test_remeshing_gives_as_many_good_triangles_as_asked(scale: float) -> None:
     pytest.importorskip("pymeshlab")
-    old = Mesh(scale * bumpy_sphere(3).vertices, bumpy_sphere(3).faces)
+    old = moved(bumpy_sphere(3), scale)
     new = remesh(old, 900)
+    assert (
+        np.abs(new.vertices.max(axis=0) - old.vertices.max(axis=0)).max() < 0.1 * scale
+    )  # it lies where the old one does
     assert abs(new.n_vertices / 900 - 1) < 0.1
     assert abs(area(new) / area(old) - 1) < 0.03
     sides = np.linalg.norm(new.vertices[new.faces] - new.vertices[np.roll(new.faces, -1, axis=1)], axis=2)
@@ -45,6 +48,34 @@ def test_filling_holes_closes_the_surface_and_keeps_what_is_there() -> None:
     assert "W217" in {note.code for note in check(holes)}
     assert "W217" not in {note.code for note in check(closed)} and not warnings(closed) - {"W216"}
     assert fill_holes(icosphere(1)).n_faces == 80
+
+
+def test_remeshing_comes_close_to_the_count_also_when_that_is_hard() -> None:
+    """A coarse mesh with a long boundary comes out too fine at first."""
+    pytest.importorskip("pymeshlab")
+    assert abs(remesh(rectangle(20, 20), 60).n_vertices / 60 - 1) < 0.15
+    assert remesh(bumpy_sphere(2), 4).n_vertices < 20
+    with pytest.raises(ValueError, match="at least 4, not 3"):
+        remesh(bumpy_sphere(2), 3)
+
+
+def test_holes_of_more_edges_than_asked_stay_open() -> None:
+    pytest.importorskip("pymeshlab")
+    holes = joined(punctured(icosphere(2)), punctured(icosphere(2), 100))  # 5 edges, 6 edges
+    assert [fill_holes(holes, k).n_faces - holes.n_faces for k in (4, 5, 6)] == [0, 3, 7]
+
+
+@pytest.mark.parametrize("scale", [1e-60, 1.0, 1e60])
+def test_a_ragged_hole_is_closed_whatever_the_unit(scale: float) -> None:
+    """Even where the new faces have to pass through each other."""
+    pytest.importorskip("pymeshlab")
+    ball = icosphere(2)
+    bowl = repair(Mesh(ball.vertices, ball.faces[ball.vertices[ball.faces].mean(axis=1)[:, 2] < 0.3])).mesh
+    ragged = jittered(bowl, 0.6)
+    rim = next(note for note in check(ragged) if note.code == "W217")
+    closed = fill_holes(Mesh(scale * ragged.vertices, ragged.faces))
+    assert f"with {closed.n_faces - ragged.n_faces + 2} edges" in rim.message
+    assert np.array_equal(closed.faces, fill_holes(ragged).faces)
 
 
 FAULTS = {

@@ -77,6 +77,11 @@ def test_welding_joins_equal_positions_when_asked() -> None:
     assert np.array_equal(fixed.mesh.vertices[fixed.mesh.faces], mesh.vertices[mesh.faces])
 
 
+def test_zero_and_minus_zero_are_one_place() -> None:
+    twice = Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [-0.0, 0, -0.0], [0, 0, 1]], [[0, 1, 2], [3, 4, 1]])
+    assert repair(twice, weld=True).mesh.n_vertices == 4 and "W219" in warnings(twice)
+
+
 @pytest.mark.parametrize("scale", [1e-12, 1.0, 1e12])
 def test_decimation_keeps_the_surface_and_knows_where_points_come_from(scale: float) -> None:
     fine = Mesh(scale * bumpy_sphere(3).vertices, bumpy_sphere(3).faces)
