@@ -5,7 +5,15 @@ from __future__ import annotations
 import struct
 
 import numpy as np
-from file_cases import OBJ, OFF, PLY, PLY_HEAD, STL, STL_BINARY, binary_ply, glb, setting
+from file_cases import OBJ, OFF, PLY, PLY_HEAD, STL, STL_BINARY, binary_ply, glb, one_view, setting
+
+
+def json_alone() -> bytes:
+    """A GLB that ends before its numbers."""
+    whole = glb()
+    end = 20 + int.from_bytes(whole[12:16], "little")
+    return whole[:8] + struct.pack("<I", end) + whole[12:end]
+
 
 REFUSED: list[tuple[str, str, str | bytes, str, str]] = [
     *[("F01", f"empty.{kind}", b"", "E201", "empty") for kind in ("off", "obj", "ply", "stl", "glb", "vert", "tri")],
@@ -69,6 +77,17 @@ REFUSED: list[tuple[str, str, str | bytes, str, str]] = [
     ("F17", "many.glb", glb(lambda t: t["meshes"].append(t["meshes"][0])), "E209", "2 mesh parts"),
     ("F17", "placed_twice.glb", glb(lambda t: (t["nodes"].append({"mesh": 0, "translation": [5, 0, 0]}),
                                                t["scenes"][0]["nodes"].append(1))), "E209", "2 meshes"),
+    ("F17", "header.glb", glb()[:19], "E204", "19 bytes"),
+    ("F17", "version.glb", glb().replace(b"glTF\2", b"glTF\1"), "E209", "version 2"),
+    ("F17", "strip.glb", glb(setting("meshes", 0, "primitives", 0, "mode", value=5)), "E209", "indexed triangles"),
+    ("F17", "no_indices.glb", glb(lambda t: t["meshes"][0]["primitives"][0].pop("indices")), "E209", "indexed"),
+    ("F17", "sparse.glb", glb(setting("accessors", 0, "sparse", value={})), "E209", "sparse"),
+    ("F17", "offset.glb", glb(lambda t: (one_view(t), t["accessors"][1].update(byteOffset=49))), "E209", "24 bytes"),
+    ("F17", "view_offset.glb", glb(setting("bufferViews", 1, "byteOffset", value=49)), "E209", "accessor 1"),
+    ("F17", "before.glb", glb(setting("bufferViews", 0, "byteOffset", value=-1)), "E209", "negative"),
+    ("F17", "quantity.glb", glb(setting("accessors", 0, "type", value="VEC4")), "E209", "malformed"),
+    ("F17", "no_data.glb", json_alone(), "E209", "needs 24 bytes"),
+    ("F17", "image.glb", glb(setting("images", value=[{"uri": "a.png"}])), "E222", "not opened"),
     ("F17", "nothing.glb", glb(lambda t: t.clear()), "E209", "0 mesh parts"),
     ("F17", "types.glb", glb(setting("meshes", value={"a": 1})), "E209", "malformed"),
     ("S03", "uri.glb", glb(setting("buffers", 0, "uri", value="../../etc/passwd")), "E222", "not opened"),
