@@ -138,6 +138,18 @@ def test_inside_out_closed_parts_are_turned_each_on_its_own() -> None:
     assert np.array_equal(fixed.faces[sphere.n_faces :], both.faces[sphere.n_faces :])
 
 
+def test_what_has_no_inside_is_not_inside_out() -> None:
+    """Open parts, whichever way they bulge; and closed ones that are folded flat."""
+    ball, sheet = icosphere(2), rectangle(4, 4)
+    bowl = Mesh(ball.vertices, ball.faces[ball.vertices[ball.faces].mean(axis=1)[:, 2] < 0.3][:, ::-1])
+    rim = (sheet.vertices[:, :2] % 1 == 0).any(axis=1)
+    back = np.where(rim, np.arange(25), 25 + np.arange(25))
+    folded = Mesh(np.vstack([sheet.vertices] * 2), np.vstack([sheet.faces, back[sheet.faces][:, ::-1]]))
+    for seed in range(4):
+        for mesh in (moved(bowl, 1.0, seed), moved(folded, 1.0, seed)):
+            assert orient_faces(mesh) is mesh and "W204" not in notes(mesh)
+
+
 def test_a_moebius_strip_has_no_orientation_and_stays_as_it_is() -> None:
     strip = moebius()
     found = notes(strip)
