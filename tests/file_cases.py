@@ -138,11 +138,16 @@ READ: list[tuple[str, str, str | bytes]] = [
     ("F12", "crlf.ply", PLY.replace("\n", "\r\n")),
     ("F12", "no_newline.ply", PLY.rstrip()),
     ("F12", "comment.ply", PLY.replace("element vertex", "comment TextureFile /x\nobj_info x\nelement vertex")),
+    ("F12", "cr.ply", PLY.replace("\n", "\r")),
     ("F13", "binary_solid.stl", STL_BINARY),
     ("F13", "upper.stl", STL.upper()),
     ("F13", "two.stl", f"solid a\n{''.join(facet(V[f]) for f in F[:2])}endsolid a\n"
      f"solid b\n{''.join(facet(V[f]) for f in F[2:])}endsolid b\n"),
     ("F13", "indented.stl", STL.replace("\n", "\r\n\t ")),
+    ("F14", "singular.ply", PLY.replace("vertex_indices", "vertex_index")),
+    ("F14", "order.ply", PLY.replace("float x", "float t").replace("float z", "float x").replace("float t", "float z")
+     .replace(V_TEXT, "".join(f"{z} {y} {x}\n" for x, y, z in V.tolist()))),
+    ("F14", "empty_element.ply", PLY.replace("end_header", "element edge 0\nproperty int vertex1\nend_header")),
     ("F14", "little.ply", binary_ply()),
     ("F14", "big.ply", binary_ply(">")),
     ("F14", "types.ply", binary_ply("<", "int", "ushort")),
