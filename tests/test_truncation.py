@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from file_cases import OFF, PLY, READ, STL
+from file_cases import OFF, PLY, PLY_HEAD, READ, STL
 from reading import read_in_child
 from shapes import icosphere, rectangle
 
@@ -64,6 +64,38 @@ def test_f07_no_truncation_at_any_byte_passes_as_another_mesh(tmp_path: Path) ->
                 assert outcome["code"] in {"E104", "E201", "E203", "E204", "E205", "E206", "E207", "E105"}, outcome
                 refused += 1
     assert refused > 2000
+
+
+TEXTS = {  # format: what is above the vertices, before and after each face, and the index of the first vertex
+    "off": ("OFF\n{} {} 0\n", "3 ", "", 0),
+    "obj": ("", "f ", "", 1),
+    "ply": (PLY_HEAD.replace("4", "{}"), "3 ", "", 0),
+    "coloured.ply": (
+        PLY_HEAD.replace("4", "{}").replace("indices\n", "indices\nproperty uchar red\n"),
+        "3 ",
+        " 255",
+        0,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_a_last_digit_that_is_missing_is_missed(tmp_path: Path, name: str) -> None:
+    """Vertex 14 of the last face has become 1; where something stands behind it the cut is seen to be elsewhere."""
+    head, before, after, base = TEXTS[name]
+    mesh = icosphere(1)
+    faces = np.roll(mesh.faces, 5, axis=0)
+    faces[-1] = np.roll(faces[-1], 2 - int(np.argmax(faces[-1] >= 10)))
+    assert faces[-1, 2] >= 10
+    lines = [("v " if name == "obj" else "") + " ".join(map(repr, row)) for row in mesh.vertices.tolist()]
+    lines += [before + " ".join(map(str, row)) + after for row in (faces + base).tolist()]
+    whole = head.format(mesh.n_vertices, mesh.n_faces) + "\n".join(lines)
+    path = tmp_path / f"mesh.{name}"
+    path.write_text(whole)
+    assert np.array_equal(read_mesh(path).faces, faces)
+    path.write_text(whole[:-1])
+    with nullcontext() if after else pytest.raises(FormatError, match="E204"):
+        assert np.array_equal(read_mesh(path).faces, faces)
 
 
 @pytest.mark.parametrize(
