@@ -31,7 +31,7 @@ ROOT = HERE.parent
 RESULTS = HERE / "results"
 SECONDS = 120  # of processor time; a fault that makes a loop endless is noticed as well
 SHARED = ("pytest", "hypothesis.extra.numpy", "igl", "numba", "scipy.sparse.linalg", "scipy.spatial", "trimesh")
-READERS = ("test_bad_files", "test_io", "test_truncation", "test_damage")  # those that notice most come first
+READERS = ("test_bad_files", "test_file_limits", "test_io", "test_truncation", "test_damage")  # the quickest first
 MODULES: dict[str, tuple[str, ...]] = {
     "geodesics._validation": ("test_bad_arrays", "test_points", "test_mesh"),
     "geodesics._duck": ("test_bad_arrays",),
@@ -42,8 +42,8 @@ MODULES: dict[str, tuple[str, ...]] = {
     "geodesics.memory": ("test_memory",),
     **{f"geodesics.io.{name}": READERS for name in ("glb", "obj", "off", "opening", "ply", "stl", "text", "tosca")},
     "geodesics.io.truncation": ("test_truncation",),
-    "geodesics.io.writing": ("test_io",),
-    "geodesics.io.atomic": ("test_bad_files", "test_system"),
+    "geodesics.io.writing": ("test_io", "test_file_limits"),
+    "geodesics.io.atomic": ("test_file_limits", "test_bad_files", "test_system"),
     "gmds._validation": ("test_landmarks",),
     "gmds.landmarks": ("test_landmarks",),
     "gmds.npz_file": ("test_npz_file", "test_map_file"),

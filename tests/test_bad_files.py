@@ -35,11 +35,7 @@ def test_read(outcomes: dict[str, dict[str, Any]], row: str, name: str) -> None:
     outcome = outcomes[name]
     assert "code" not in outcome, outcome
     vertices, faces = np.array(outcome["vertices"]), np.array(outcome["faces"])
-    if name.endswith(".stl") or row == "F13" or name == "unknown.xyz":  # numbered by first appearance
-        assert vertices.shape == (4, 3)
-        assert np.array_equal(vertices[faces], V[F])
-    else:
-        assert np.array_equal(vertices, V) and np.array_equal(faces, F)
+    assert np.array_equal(vertices, V) and np.array_equal(faces, F)  # STL: numbered by first appearance
     assert outcome["printed"] == ""
 
 
