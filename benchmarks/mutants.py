@@ -48,8 +48,8 @@ MODULES: dict[str, tuple[str, ...]] = {
     "gmds.landmarks": ("test_landmarks",),
     "gmds.npz_file": ("test_npz_file", "test_map_file"),
     "gmds.map_file": ("test_map_file", "test_npz_file"),
-    "gmds.algebra": ("test_correspondence",),
-    "gmds.correspondence": ("test_correspondence", "test_map_file"),
+    "gmds.algebra": ("test_map_algebra", "test_correspondence"),
+    "gmds.correspondence": ("test_correspondence", "test_map_file", "test_map_algebra"),
     **dict.fromkeys(
         [f"gmds.landmark_files.{name}" for name in ("landmarks", "plain", "reading", "slicer")],
         ("test_landmark_formats",),
