@@ -31,28 +31,35 @@ ROOT = HERE.parent
 RESULTS = HERE / "results"
 SECONDS = 120  # of processor time; a fault that makes a loop endless is noticed as well
 SHARED = ("pytest", "hypothesis.extra.numpy", "igl", "numba", "scipy.sparse.linalg", "scipy.spatial", "trimesh")
-READERS = ("test_bad_files", "test_file_limits", "test_io", "test_truncation", "test_damage")  # the quickest first
+READERS = (
+    "test_bad_files",
+    "test_file_limits",
+    "test_io",
+    "test_truncation",
+    "test_damage",
+    "test_values",
+)  # the quickest first
 MODULES: dict[str, tuple[str, ...]] = {
     "geodesics._validation": ("test_bad_arrays", "test_points", "test_mesh"),
     "geodesics._duck": ("test_bad_arrays",),
     "geodesics.check": ("test_check", "test_repair"),
     "geodesics.repair": ("test_repair", "test_remeshing"),
     "geodesics.splitting": ("test_splitting",),
-    "geodesics.orientation": ("test_check", "test_repair"),
+    "geodesics.orientation": ("test_check", "test_repair", "test_values"),
     "geodesics.memory": ("test_memory",),
     **{f"geodesics.io.{name}": READERS for name in ("glb", "obj", "off", "opening", "ply", "stl", "text", "tosca")},
     "geodesics.io.truncation": ("test_truncation",),
     "geodesics.io.writing": ("test_io", "test_file_limits"),
     "geodesics.io.atomic": ("test_file_limits", "test_bad_files", "test_system"),
     "gmds._validation": ("test_landmarks",),
-    "gmds.landmarks": ("test_landmarks",),
+    "gmds.landmarks": ("test_landmarks", "test_values"),
     "gmds.npz_file": ("test_npz_file", "test_map_file"),
     "gmds.map_file": ("test_map_file", "test_npz_file"),
     "gmds.algebra": ("test_map_algebra", "test_correspondence"),
-    "gmds.correspondence": ("test_correspondence", "test_map_file", "test_map_algebra"),
+    "gmds.correspondence": ("test_correspondence", "test_map_file", "test_map_algebra", "test_values"),
     **dict.fromkeys(
         [f"gmds.landmark_files.{name}" for name in ("landmarks", "plain", "reading", "slicer")],
-        ("test_landmark_formats",),
+        ("test_landmark_formats", "test_values"),
     ),
 }
 

@@ -45,7 +45,7 @@ class Candidate:
     orientation: float
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False)
 class Correspondence:
     """A map from every vertex of `source` (n of them) to a point of `target`.
 

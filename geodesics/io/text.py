@@ -25,7 +25,7 @@ from geodesics.io.opening import LONGEST_LINE
 _DECIMAL = frozenset("0123456789+-.eE")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Contents:
     """What a file holds: vertices (n, 3), triangles (m, 3) and the notes taken on the way."""
 
