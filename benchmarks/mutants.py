@@ -59,7 +59,7 @@ MODULES: dict[str, tuple[str, ...]] = {
     "gmds.correspondence": ("test_correspondence", "test_map_file", "test_map_algebra", "test_values"),
     **dict.fromkeys(
         [f"gmds.landmark_files.{name}" for name in ("landmarks", "plain", "reading", "slicer")],
-        ("test_landmark_formats", "test_values"),
+        ("test_bad_landmark_files", "test_landmark_formats", "test_values"),
     ),
 }
 

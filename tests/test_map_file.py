@@ -134,6 +134,16 @@ def test_wrong_arrays_are_refused(tmp_path: Path, parts: dict[str, Any], case: s
         load(tmp_path / "bad.npz")
 
 
+@pytest.mark.parametrize(("size", "says"), [(16_000_000, "not UTF-8 JSON"), (16_000_001, "at most 16 MB")])
+def test_meta_of_more_than_16_megabytes_is_not_taken(
+    tmp_path: Path, parts: dict[str, Any], size: int, says: str
+) -> None:
+    parts["meta"] = np.zeros(size, np.uint8)
+    np.savez_compressed(tmp_path / "bad.npz", **parts)
+    with pytest.raises(MapArray, match=says):
+        load(tmp_path / "bad.npz")
+
+
 @pytest.mark.parametrize("change", [{"version": 2}, {"version": "1"}, {"format": "else"}, {"version": None}])
 def test_versions_from_the_future_are_refused(tmp_path: Path, parts: dict[str, Any], change: dict[str, Any]) -> None:
     meta = {**json.loads(parts["meta"].tobytes()), **change}
