@@ -148,19 +148,14 @@ def share(faults: list[Fault]) -> tuple[int, int, str]:
 def page(done: Done) -> str:
     """The figures by seed and by module, and the survivors."""
     every = sorted(done.values())
-    seeds = [
-        (seed, *share([fault for fault in every if fault.seed == seed])) for seed in sorted({f.seed for f in every})
-    ]
+    seeds = [(seed, *share([f for f in every if f.seed == seed])) for seed in sorted({f.seed for f in every})]
     modules = [
-        (f"`{module}`", places(source(module)), *share([fault for fault in every if fault.module == module]))
-        for module in dict.fromkeys(fault.module for fault in every)
+        (f"`{module}`", places(source(module)), *share([f for f in every if f.module == module]))
+        for module in dict.fromkeys(f.module for f in every)
     ]
-    lines = ["# Mutation testing", ""]
-    lines += [
-        "`python benchmarks/mutants.py`: faults put in at random, and whether the tests notice. Each seed draws faults",
-        "that no earlier one has drawn. Tests were written for the survivors of seed 0, and none for those of seed 1.",
-        "",
-    ]
+    lines = ["# Mutation testing", "", "`python benchmarks/mutants.py`: faults put in at random, and whether the tests"]
+    lines += ["notice. Each seed draws faults that no earlier one has drawn: tests were written for the survivors of"]
+    lines += ["seed 0, and none for those of seed 1.", ""]
     lines += table(["seed", "faults", "noticed", "share"], [*seeds, ("all", *share(every))])
     lines += table(["module", "places", "faults", "noticed", "share"], modules)
     survivors = [(f"`{fault.module}`", fault.seed, fault.where) for fault in every if not fault.killed]
