@@ -64,6 +64,8 @@ REFUSED: list[tuple[str, str, str | bytes, str, str]] = [
     *[("F11", f"index{i}.obj", OBJ.replace("f 2 4 3", f"f 2 {t} 3"), "E105", "line 8")
       for i, t in enumerate(["0", "5", "-5", "1" * 20])],
     ("F13", "count.stl", STL_BINARY[:80] + struct.pack("<I", 5) + STL_BINARY[84:], "E204", "5 triangles"),
+    ("F13", "no_facets.stl", bytes(84), "E103", "no vertices"),
+    ("F13", "no_count.stl", bytes(83), "E204", "83"),
     ("F13", "open.stl", STL.replace("endsolid thing\n", ""), "E204", "endsolid"),
     ("F13", "facet.stl", STL.replace("endloop", "", 1), "E204", "endloop"),
     ("F14", "type.ply", PLY.replace("property float x", "property quaternion x"), "E207", "line 4"),
