@@ -49,7 +49,7 @@ MODULES: dict[str, tuple[str, ...]] = {
     "geodesics.memory": ("test_memory",),
     **{f"geodesics.io.{name}": READERS for name in ("glb", "obj", "off", "opening", "ply", "stl", "text", "tosca")},
     "geodesics.io.truncation": ("test_truncation",),
-    "geodesics.io.writing": ("test_io", "test_file_limits"),
+    "geodesics.io.writing": ("test_io", "test_bad_files", "test_file_limits"),
     "geodesics.io.atomic": ("test_file_limits", "test_bad_files", "test_system"),
     "gmds._validation": ("test_landmarks",),
     "gmds.landmarks": ("test_landmarks", "test_values"),
