@@ -71,7 +71,7 @@ def test_the_stem_of_a_tosca_shape_may_have_a_dot(tmp_path: Path) -> None:
 
 
 def test_files_are_as_others_make_them_readable_and_no_programs(tmp_path: Path) -> None:
-    before = os.umask(0o027)
+    before = os.umask(0o022)
     try:
         write_mesh(icosphere(0), tmp_path / "a.off")
         (tmp_path / "b.off").write_text("")
