@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+from typing import Any
+
 import numpy as np
-from shapes import bumpy_sphere, subdivided
+from shapes import bumpy_sphere, icosphere, subdivided
 
 from geodesics import Mesh, SurfacePoints
 from geodesics.closest import closest_on_triangles
-from gmds.correspondence import Correspondence
+from gmds.correspondence import Correspondence, MatchStatus
+
+SOURCE, TARGET = bumpy_sphere(1), icosphere(2)
 
 
 def identity(mesh: Mesh) -> Correspondence:
@@ -21,3 +26,24 @@ def subvertex_map(coarse: int = 2) -> tuple[Correspondence, Mesh, Mesh]:
     face, weights, gap = closest_on_triangles(source.vertices, target.vertices, target.faces)
     assert gap.max() < 1e-12
     return Correspondence.from_points(source, SurfacePoints(target, face, weights)), source, target
+
+
+def make_answer() -> Correspondence:
+    """A map with everything that a file can hold."""
+    rng = np.random.default_rng(0)
+    n = SOURCE.n_vertices
+    points = SurfacePoints(TARGET, rng.integers(0, TARGET.n_faces, n), rng.dirichlet(np.ones(3), n))
+    meta = {"seed": 3, "parameters": {"n_samples": np.int64(7), "weights": np.arange(2.0)}, "timings": {"solve": 0.5}}
+    valid, distortion = rng.random(n) > 0.2, rng.random(n).astype(np.float32).astype(np.float64)
+    return Correspondence(SOURCE, TARGET, points, valid, distortion, MatchStatus.AMBIGUOUS, (), meta)
+
+
+def members(path: Path) -> dict[str, Any]:
+    """The arrays of a file, by numpy alone."""
+    with np.load(path, allow_pickle=False) as archive:
+        return {name: archive[name] for name in archive.files}
+
+
+def load(path: Path) -> Correspondence:
+    """A map between SOURCE and TARGET."""
+    return Correspondence.load(path, SOURCE, TARGET)

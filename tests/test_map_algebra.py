@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from maps import identity, subvertex_map
-from shapes import bumpy_sphere, ellipsoid, icosphere, moved, subdivided
+from shapes import bumpy_sphere, ellipsoid, icosphere, joined, moved, subdivided
 
 from geodesics import Mesh, SurfacePoints
 from geodesics.closest import closest_on_triangles
@@ -175,15 +175,17 @@ def test_the_image_of_a_point_minds_only_corners_that_have_weight() -> None:
 
 
 def test_what_lies_on_one_face_follows_exactly_and_what_does_not_lies_on_the_surface() -> None:
+    """Even where another sheet of the target lies in the same place."""
     mesh, rng = icosphere(2), np.random.default_rng(0)
     weights = rng.dirichlet(np.ones(3), 3)
-    face = np.full(mesh.n_vertices, 11)
-    barycentric = np.tile([1.0, 0, 0], (mesh.n_vertices, 1))
-    barycentric[mesh.faces[7]] = weights
-    answer = Correspondence.from_points(mesh, SurfacePoints(mesh, face, barycentric))
-    found, _, _ = image(answer, SurfacePoints(mesh, [7], [[0.2, 0.3, 0.5]]))
-    assert found.face.tolist() == [11]
-    np.testing.assert_allclose(found.barycentric[0], np.array([0.2, 0.3, 0.5]) @ weights, atol=1e-15)
+    sheets = joined(mesh, mesh, gap=0)
+    for face in (11, 11 + mesh.n_faces):
+        barycentric = np.tile([1.0, 0, 0], (mesh.n_vertices, 1))
+        barycentric[mesh.faces[7]] = weights
+        answer = Correspondence.from_points(mesh, SurfacePoints(sheets, [face] * mesh.n_vertices, barycentric))
+        found, _, _ = image(answer, SurfacePoints(mesh, [7], [[0.2, 0.3, 0.5]]))
+        assert found.face.tolist() == [face]
+        np.testing.assert_allclose(found.barycentric[0], np.array([0.2, 0.3, 0.5]) @ weights, atol=1e-15)
     fine = icosphere(3)  # begins with the vertices of the coarser one
     onto = Correspondence.from_points(mesh, SurfacePoints.at_vertices(fine, np.arange(mesh.n_vertices)))
     points = SurfacePoints(mesh, rng.integers(0, mesh.n_faces, 200), rng.dirichlet(np.ones(3), 200))
