@@ -10,7 +10,7 @@ CLAUSES: dict[str, tuple[str, str]] = {
     "C5": ("same input, same bits", "test_threads, test_system, test_matching_invariance, test_batch"),
     "C6": ("motion, size, numbering, order do not matter", "test_matching_invariance, test_metrics, test_theorems"),
     "C7": (
-        "files are whole or untouched; batches resume",
+        "files whole or untouched; batches resume",
         "test_system, test_batch, test_batch_killed, test_map_damage",
     ),
     "C8": ("memory is refused before it is taken", "test_memory, test_bad_files, test_map_file"),

@@ -51,8 +51,7 @@ def test_inverse_is_not_valid_where_nothing_is_mapped() -> None:
     assert not back.valid[target.vertices[:, 0] < -0.6].any()
     assert np.isfinite(back.points.positions).all()
     nothing = Correspondence.from_points(source, answer.points, valid=np.zeros(source.n_vertices, bool)).inverse()
-    assert not nothing.valid.any()
-    assert len(nothing.points) == target.n_vertices
+    assert not nothing.valid.any() and len(nothing.points) == target.n_vertices
 
 
 def test_inverse_of_a_map_between_sizes() -> None:
