@@ -21,6 +21,7 @@ R = TypeVar("R")
 S = TypeVar("S")
 T = TypeVar("T")
 
+_own = threading.local()
 _lock = threading.Lock()
 _running = 0
 _limits: threadpool_limits | None = None
@@ -67,12 +68,12 @@ def side_by_side(
 ) -> list[R]:
     """The function of each item, in their order, on `threads()` threads; what is returned does not depend on these.
 
-    `progress(share)` is called on the calling thread as results come in. What it raises, and what the function does,
-    ends the work: items that were not begun are not.
+    Inside such a function there are no further threads. `progress(share)` is called on the calling thread as results
+    come in. What it raises, and what the function does, ends the work: items that were not begun are not.
     """
     given, results = list(items), []
-    count = min(threads(), len(given))
-    with ThreadPoolExecutor(count) if count > 1 else nullcontext() as pool:
+    count = 1 if getattr(_own, "busy", False) else min(threads(), len(given))
+    with ThreadPoolExecutor(count, initializer=_make_busy) if count > 1 else nullcontext() as pool:
         try:
             for result in map(function, given) if pool is None else pool.map(function, given):
                 results.append(result)
@@ -83,6 +84,10 @@ def side_by_side(
                 pool.shutdown(wait=False, cancel_futures=True)
             raise
     return results
+
+
+def _make_busy() -> None:
+    _own.busy = True
 
 
 class cached_property(Generic[T]):

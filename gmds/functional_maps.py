@@ -8,9 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from geodesics.threads import side_by_side
+
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
-_BLOCK = 1 << 23  # entries of a distance matrix held at a time
+_BLOCK = 1 << 22  # entries of a distance matrix that a thread holds at a time
+_NONE = np.empty(0, dtype=np.int64)
 
 
 def functional_map(source_rows: Array, target_rows: Array) -> Array:
@@ -32,12 +35,9 @@ def nearest_rows(queries: Array, rows: Array, dtype: type[np.floating[Any]] = np
     r = rows.astype(dtype)
     q = np.hstack([queries, np.ones((len(queries), 1))]).astype(dtype)
     lifted = np.vstack([-r.T, 0.5 * np.einsum("ik,ik->i", r, r)])  # |r|^2 / 2 - q . r in one product
-    result = np.empty(len(q), dtype=np.int64)
     step = max(1, _BLOCK // len(r))
-    for start in range(0, len(q), step):
-        here = slice(start, start + step)
-        result[here] = (q[here] @ lifted).argmin(axis=1)
-    return result
+    blocks = [slice(start, start + step) for start in range(0, len(q), step)]
+    return np.concatenate([*side_by_side(lambda block: (q[block] @ lifted).argmin(axis=1), blocks), _NONE])
 
 
 def spectral_upsampling(

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from geodesics.threads import side_by_side
 from gmds.upsampling import COARSE, SampledPair
 
 Index = NDArray[np.int64]
@@ -18,9 +19,9 @@ EARLY = 3  # steps of refinement before the rest is dropped
 
 def hypotheses(pair: SampledPair, starts: Sequence[Callable[[SampledPair], list[Index]]], count: int) -> list[Index]:
     """At most `count` sample maps, all apart from each other, those of least stress first."""
-    begun = [pair.refined(images, COARSE[:EARLY]) for start in starts for images in start(pair)]
+    begun = pair.all_refined([images for start in starts for images in start(pair)], COARSE[:EARLY])
     begun = [begun[i] for i in _by_stress(pair, begun)[:TRIED]]
-    done = [pair.refined(images, COARSE[EARLY:]) for images in begun]
+    done = pair.all_refined(begun, COARSE[EARLY:])
     kept: list[Index] = []
     for i in _by_stress(pair, done):
         if len(kept) < count and all(pair.gap(done[i], other) > DISTINCT for other in kept):
@@ -29,4 +30,4 @@ def hypotheses(pair: SampledPair, starts: Sequence[Callable[[SampledPair], list[
 
 
 def _by_stress(pair: SampledPair, maps: list[Index]) -> Index:
-    return np.argsort([pair.stress(images) for images in maps], kind="stable")
+    return np.argsort(side_by_side(pair.stress, maps), kind="stable")

@@ -26,6 +26,7 @@ from gmds.surface import Surface, measure, view_of
 
 SAMPLES = 300
 ENOUGH = 3  # hard landmarks that need no other starts
+ENOUGH_SOFT = 6  # landmarks of any kind that need none: should one be wrong, the others outweigh it
 REFINED = 3  # maps whose samples are placed by the solver
 UNLIKELY = 0.8  # log-likelihood short of the best, at which no map of development pairs was the answer in the end
 REFLECTED = {"preserve": (False,), "reverse": (True,), "any": (False, True)}
@@ -96,11 +97,10 @@ def match(  # noqa: PLR0913 - the signature is a promise
         **described(distance, loss),
         "orientation": orientation,
         "rng": rng,
-        **({} if given is None else {"landmarks": given.described()}),
     }
     found = answer(placed, {"parameters": settings})
     found = found if carrier is None else carrier.carried(found)
-    found = found if given is None else given.pinned(found)
+    found = found if given is None else given.applied(found)
     report("done", 1.0)
     return replace(found, meta={**found.meta, "seconds": round(time.perf_counter() - started, 3)})
 
@@ -123,7 +123,8 @@ def _embedded(
         views = [given[0]]
     starts: list[Start] = list(initialization.ALL)
     if pair.known is not None:
-        starts = [from_landmarks(*pair.known.vertices), *(starts if len(pair.known.hard) < ENOUGH else ())]
+        enough = len(pair.known.hard) >= ENOUGH or len(pair.known) >= ENOUGH_SOFT
+        starts = [from_landmarks(*pair.known.vertices), *(() if enough else starts)]
     report("proposing", 0.2)
     found = proposals(pair, views, starts, lambda share: report("proposing", 0.2 + 0.3 * share))
     chosen = distinct(found, pair.outlines[0], REFINED, UNLIKELY)

@@ -52,12 +52,3 @@ def orientation_forms(view: View, points: Index) -> Array:
     for k in range(3):
         np.add.at(total, view.mesh.faces[:, k], wedge / 3)
     return total[points] / view.spectrum.mass[points, None]
-
-
-def pulled_back_forms(forms: Array, matrix: Array) -> Array:
-    """Forms (p, 10) of the target's functions as those of the source's, by the functional map C (k, k), k > 5."""
-    inner = matrix[1 : FUNCTIONS + 1, 1 : FUNCTIONS + 1]
-    i, j = _PAIRS.T
-    ours, theirs = inner[i], inner[j]
-    minors = ours[:, i] * theirs[:, j] - ours[:, j] * theirs[:, i]
-    return forms @ minors.T

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geodesics import SurfacePoints
-from geodesics.threads import cached_property
+from geodesics.threads import cached_property, side_by_side
 from gmds.derived import derived_once
 from gmds.geometry import Geometry
 from gmds.known import Known
@@ -37,7 +37,8 @@ class SurfacePair:
     @cached_property
     def outlines(self) -> tuple[Geometry, Geometry]:
         """Both surfaces with few faces."""
-        return self._anchored(outline(self.source), outline(self.target))
+        source, target = side_by_side(outline, (self.source, self.target))
+        return self._anchored(source, target)
 
     @cached_property
     def geometries(self) -> tuple[Geometry, Geometry]:

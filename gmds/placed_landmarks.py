@@ -14,6 +14,8 @@ from gmds.correspondence import Correspondence
 from gmds.known import Known, Marks
 from gmds.problem import mixed
 
+DOUBTFUL = 3  # tolerances by which a map misses a soft landmark that may be wrong
+
 
 @dataclass(frozen=True, eq=False)
 class PlacedLandmarks:
@@ -37,12 +39,30 @@ class PlacedLandmarks:
         }
         return {**points, "tolerance": self.tolerance.tolist(), "notes": [str(note) for note in self.notes]}
 
-    def pinned(self, found: Correspondence) -> Correspondence:
-        """The map with vertices that are hard landmarks sent exactly where they belong; what is inside a face stays."""
+    def applied(self, found: Correspondence) -> Correspondence:
+        """The map with vertices that are hard landmarks sent exactly where they belong; what is inside a face stays.
+
+        Its parameters tell of the landmarks, and of the soft ones that it misses by far (W302).
+        """
         hard = np.flatnonzero((self.tolerance <= 0) & (self.on_source.barycentric.max(axis=1) >= 1 - 1e-9))
         place = np.zeros(len(found.points), dtype=np.int64)
         known = np.zeros(len(place), dtype=bool)
         rows = self.on_source[hard].nearest_vertices()
         place[rows], known[rows] = hard, True
         points = mixed(known, self.on_target[place], found.points)
-        return replace(found, points=points, valid=found.valid | known)
+        told = replace(self, notes=(*self.notes, *self._doubts(found))).described()
+        meta = {**found.meta, "parameters": {**found.meta.get("parameters", {}), "landmarks": told}}
+        return replace(found, points=points, valid=found.valid | known, meta=meta)
+
+    def _doubts(self, found: Correspondence) -> list[Note]:
+        sent = self.on_source.interpolate(found.points.positions)
+        missed = np.linalg.norm(sent - self.on_target.positions, axis=1) / np.sqrt(found.target.area)
+        wrong = np.flatnonzero((self.tolerance > 0) & (missed > DOUBTFUL * self.tolerance))
+        if not len(wrong):
+            return []
+        worst = wrong[missed[wrong].argmax()]
+        message = (
+            f"{len(wrong)} soft landmarks are missed by more than {DOUBTFUL} tolerances; the worst, number {worst}, by "
+            f"{missed[worst]:.3f} square roots of the area; are they right?"
+        )
+        return [Note("W302", "warning", message, tuple(wrong.tolist()))]

@@ -111,14 +111,14 @@ def rough_maps(pair: SurfacePair, views: Sequence[tuple[View, View]], starts: Se
     (here, there), (ours, theirs) = pair.outlines, pair.reflections
     spot = np.zeros(pair.target.mesh.n_vertices, dtype=np.int64)
     spot[there.origin] = np.arange(len(there.origin))
-    straight, turned = [], []
     sampled = side_by_side(lambda both: SampledPair.of(*both), views)
-    proposed = side_by_side(lambda one: hypotheses(one, starts, PROPOSED), sampled)
-    for one, maps in zip(sampled, proposed, strict=True):
-        for images in maps:
-            straight.append(spot[one.carried(images, here.origin, there.origin)])
-            if ours is not None:
-                turned.append(spot[one.carried(images, ours[here.origin], there.origin)])
+    found = [(one, images) for one in sampled for images in hypotheses(one, starts, PROPOSED)]
+
+    def carried(origin: Index) -> list[Index]:
+        return side_by_side(lambda each: spot[each[0].carried(each[1], origin, there.origin)], found)
+
+    straight = carried(here.origin)
+    turned = [] if ours is None else carried(ours[here.origin])
     if theirs is not None:
         back = there.places.query(pair.target.mesh.vertices[theirs[there.origin]])[1]
         turned = [back[images] for images in straight]

@@ -25,9 +25,9 @@ def mirror(surface: Surface, view: View) -> Index | None:
     all signs of the first few are tried, and the likely ones refined to the end.
     """
     pair = SampledPair.of(view, view, -1)
-    begun = [pair.refined(images, COARSE[:EARLY]) for images in eigenfunction_signs(pair)]
+    begun = pair.all_refined(eigenfunction_signs(pair), COARSE[:EARLY])
     likely = np.argsort([pair.stress(images) for images in begun], kind="stable")[:LIKELY]
-    maps = [pair.refined(begun[i], COARSE[EARLY:]) for i in likely]
+    maps = pair.all_refined([begun[i] for i in likely], COARSE[EARLY:])
     for i in np.argsort([pair.stress(images) for images in maps], kind="stable"):
         if pair.stress(maps[i]) > MOST_STRESS:
             return None

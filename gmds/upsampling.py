@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geodesics.euclidean import euclidean_distances
-from geodesics.threads import cached_property
+from geodesics.threads import cached_property, side_by_side
+from gmds._kernels.upsampling import mean_difference, placed, refined
 from gmds.functional_maps import functional_map, nearest_rows
-from gmds.orientation import orientation_forms, pulled_back_forms
+from gmds.orientation import orientation_forms
 from gmds.surface import View
 
 Array = NDArray[np.float64]
@@ -63,31 +64,45 @@ class SampledPair:
         return here * scale * abs(self.sense), there, scale
 
     @cached_property
-    def _inverses(self) -> dict[int, Array]:
-        """Pseudo-inverses of the source rows, shared by all starts."""
-        sizes = [k for k in COARSE if k <= self.source_rows.shape[1]]
-        return {k: np.asarray(np.linalg.pinv(self.source_rows[:, :k]), dtype=np.float64) for k in sizes}
+    def _inverses(self) -> Array:
+        """Pseudo-inverses of the source rows (s, K, p), in the first rows of each, shared by all starts."""
+        stacked = np.zeros((len(self._sizes), self._sizes[-1], len(self.source_rows)))
+        for inverse, k in zip(stacked, self._sizes, strict=True):
+            inverse[:k] = np.linalg.pinv(self.source_rows[:, :k])
+        return stacked
+
+    @cached_property
+    def _sizes(self) -> list[int]:
+        """Numbers of eigenfunctions that both have."""
+        return [k for k in COARSE if k <= min(self.source_rows.shape[1], self.target_rows.shape[1])]
+
+    @cached_property
+    def _rows(self) -> tuple[NDArray[np.float32], Array, NDArray[np.float32], Array, Array]:
+        """What `gmds._kernels.upsampling.placed` compares."""
+        ours, theirs, scale = self._forms
+        return self.source_rows.astype(np.float32), self.target_rows, ours.astype(np.float32), theirs, scale
 
     def matrix(self, images: Index, k: int) -> Array:
         """The functional map (k, k) of a sample map."""
-        if k in self._inverses:
-            return self._inverses[k] @ self.target_rows[images, :k]
+        if k in self._sizes:
+            return np.asarray(self._inverses[self._sizes.index(k), :k] @ self.target_rows[images, :k])
         return functional_map(self.source_rows[:, :k], self.target_rows[images, :k])
 
     def images(self, matrix: Array) -> Index:
         """The sample map of a functional map C (k, k), eigenfunctions and orientation forms taken together."""
-        k = len(matrix)
-        ours, theirs, scale = self._forms
-        queries = np.hstack([self.source_rows[:, :k], ours])
-        rows = np.hstack([self.target_rows[:, :k] @ matrix.T, _signed_root(pulled_back_forms(theirs, matrix)) * scale])
-        return nearest_rows(queries, rows)
+        return placed(np.ascontiguousarray(matrix), *self._rows)
 
-    def refined(self, images: Index, sizes: Iterable[int] = COARSE) -> Index:
-        """A sample map refined with ever more eigenfunctions."""
-        for k in sizes:
-            if k <= min(self.source_rows.shape[1], self.target_rows.shape[1]):
-                images = self.images(self.matrix(images, k))
-        return images
+    def refined(self, images: Index, sizes: Sequence[int] = COARSE) -> Index:
+        """A sample map refined with ever more eigenfunctions, as many as some of `COARSE` say."""
+        steps = [i for i, k in enumerate(self._sizes) if k in sizes]
+        if not steps:
+            return images
+        numbers = np.array([self._sizes[i] for i in steps], dtype=np.int64)
+        return refined(images, numbers, self._inverses[steps], *self._rows)
+
+    def all_refined(self, maps: Sequence[Index], sizes: Sequence[int] = COARSE) -> list[Index]:
+        """Sample maps, each refined."""
+        return side_by_side(lambda images: self.refined(images, sizes), maps)
 
     def dense(self, images: Index) -> Index:
         """The sample map carried to all vertices: target vertices (n,)."""
@@ -114,13 +129,16 @@ class SampledPair:
     def stress(self, images: Index) -> float:
         """Mean |d_S - d_Q| between the first samples over mean d_S, in commute-time distance."""
         first = images[:JUDGED]
-        there = self._target_distances[first][:, first]
-        return float(np.abs(self.source_distances - there).mean() / self.source_distances.mean())
+        return mean_difference(self.source_distances, self._target_distances, first) / self._mean_distance
+
+    @cached_property
+    def _mean_distance(self) -> float:
+        return float(self.source_distances.mean())
 
     def gap(self, images: Index, others: Index) -> float:
         """How far two sample maps are apart: mean distance of their images over mean d_S."""
         e = self.target.embedding[self.target_samples, :FUNCTIONS]
-        return float(np.linalg.norm(e[images] - e[others], axis=1).mean() / self.source_distances.mean())
+        return float(np.linalg.norm(e[images] - e[others], axis=1).mean() / self._mean_distance)
 
 
 def _signed_root(values: Array) -> Array:

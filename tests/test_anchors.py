@@ -71,8 +71,7 @@ def test_springs_that_were_there_stay_and_hard_ones_rule() -> None:
 
 def test_registration_brings_hard_landmarks_home() -> None:
     mine = surface(bumpy())
-    on = SurfacePoints(bumpy(), [5, 100, 200], RNG.dirichlet([1, 1, 1], 3))
-    to = SurfacePoints(bumpy(), [8, 103, 210], RNG.dirichlet([1, 1, 1], 3))
+    on, to = (SurfacePoints(bumpy(), faces, [[0.5, 0.3, 0.2]] * 3) for faces in ([5, 100, 250], [8, 103, 260]))
     pair = SurfacePair(mine, mine, place_landmarks((on, to), bumpy(), bumpy()).known)
     source, target = pair.geometries
     assert source.anchors is not None and target.anchors is not None
@@ -148,6 +147,12 @@ def test_a_wrong_soft_landmark_does_less_harm_than_a_hard_one() -> None:
     assert miss(hard)[4] > 0.3  # where it was told to be
     assert miss(soft)[4] < 0.5 * miss(hard)[4]  # nearer to where it belongs
     assert error(soft) < error(matched("none")) + 0.5 < error(hard)
+
+
+def test_a_soft_landmark_that_is_given_up_is_named() -> None:
+    (note,) = matched("wrong", 0.05).meta["parameters"]["landmarks"]["notes"]
+    assert note.startswith("W302: 1 soft landmarks") and "number 4, by 0." in note
+    assert matched("right", 0.05).meta["parameters"]["landmarks"]["notes"] == []
 
 
 def test_landmarks_count_with_a_distance_of_ones_own_as_well() -> None:

@@ -131,3 +131,15 @@ def test_what_progress_raises_ends_the_work(monkeypatch: pytest.MonkeyPatch, cou
     with pytest.raises(KeyboardInterrupt):
         side_by_side(work, range(100), stop)
     assert len(done) < 20
+
+
+def test_threads_have_no_threads_of_their_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("GMDS_THREADS", "3")
+
+    def who(_: int) -> int:
+        time.sleep(0.01)
+        return threading.get_ident()
+
+    inside = side_by_side(lambda i: {threading.get_ident(), *side_by_side(who, range(6))}, range(6))
+    assert all(len(seen) == 1 for seen in inside) and len(set.union(*inside)) == 3
+    assert len(set(side_by_side(who, range(6)))) == 3  # the caller may use them again

@@ -1,107 +1,62 @@
-"""Sample maps and their spectral refinement."""
+"""Sample maps: the compiled refinement against the same written out with numpy."""
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
 import pytest
-import shapes
-from matched import animal, bumpy, permuted, surface
+from matched import bumpy, surface
 from scipy.spatial.distance import cdist
 
-from gmds.functional_maps import functional_map
-from gmds.surface import measure
-from gmds.upsampling import COARSE, FUNCTIONS, JUDGED, SampledPair
+from gmds._kernels.upsampling import mean_difference, minors
+from gmds.orientation import orientation_forms
+from gmds.upsampling import COARSE, FORM_WEIGHT, SampledPair
 
 
-@pytest.fixture(scope="module")
-def pair() -> SampledPair:
-    """The animal with itself; its first samples are the same on both sides."""
-    view = surface(animal()).regular
-    return SampledPair.of(view, view)
-
-
-@pytest.fixture(scope="module")
-def same(pair: SampledPair) -> np.ndarray:
-    """The identity as a sample map."""
-    return np.arange(len(pair.source_samples))
-
-
-def test_fewer_samples_are_the_first_of_more(pair: SampledPair, same: np.ndarray) -> None:
-    assert len(pair.target_samples) > len(pair.source_samples) > JUDGED
-    assert np.array_equal(pair.target_samples[same], pair.source_samples)
-
-
-@pytest.mark.parametrize("k", [COARSE[0], COARSE[-1], 31])
-def test_the_matrix_of_the_identity_is_the_identity(pair: SampledPair, same: np.ndarray, k: int) -> None:
-    assert np.allclose(pair.matrix(same, k), np.eye(k), atol=1e-9)
-
-
-@pytest.mark.parametrize("k", [COARSE[1], 31])
-def test_the_matrix_is_the_least_squares_functional_map(pair: SampledPair, k: int) -> None:
-    images = np.random.default_rng(0).integers(0, len(pair.target_samples), len(pair.source_samples))
-    expected = functional_map(pair.source_rows[:, :k], pair.target_rows[images, :k])
-    assert np.allclose(pair.matrix(images, k), expected, atol=1e-8 * np.abs(expected).max())
-
-
-def test_the_identity_stays_when_refined_and_carried_to_all_vertices(pair: SampledPair, same: np.ndarray) -> None:
-    assert np.array_equal(pair.images(np.eye(COARSE[-1])), same)
-    refined = pair.refined(same)
-    assert (refined == same).mean() > 0.95
-    vertices = pair.source.mesh.vertices
-    off = np.linalg.norm(vertices[pair.dense(refined)] - vertices, axis=1)
-    assert np.median(off) == 0
-    assert off.max() < 0.15 * np.ptp(vertices)
-
-
-def test_a_map_is_carried_to_some_vertices_as_to_all_and_to_goals_only(pair: SampledPair, same: np.ndarray) -> None:
-    rng = np.random.default_rng(4)
-    some = rng.choice(pair.source.mesh.n_vertices, 50, replace=False)
-    assert np.array_equal(pair.carried(same, some, pair.target.usable), pair.dense(same)[some])
-    goals = rng.choice(pair.target.usable, 80, replace=False)
-    found, place = pair.carried(same, some, goals), pair.target.mesh.vertices
-    assert np.isin(found, goals).all()
-    nearest = cdist(place[some], place[goals]).min(axis=1)
-    assert np.median(np.linalg.norm(place[found] - place[some], axis=1)) < 1.2 * np.median(nearest)
-
-
-def test_refinement_repairs_a_disturbed_map(pair: SampledPair, same: np.ndarray) -> None:
-    rng = np.random.default_rng(1)
-    places = pair.target.mesh.vertices[pair.target_samples]
-    start = cdist(places[same] + rng.normal(0, 0.1 * places.std(), (len(same), 3)), places).argmin(axis=1)
-    before, after = pair.gap(start, same), pair.gap(pair.refined(start), same)
-    assert after < 0.2 * before
-
-
-def test_stress_and_gap_are_zero_for_the_identity_only(pair: SampledPair, same: np.ndarray) -> None:
-    assert pair.stress(same) == pytest.approx(0, abs=1e-7)
-    assert pair.gap(same, same) == 0
-    other = np.roll(same, 1)
-    assert pair.stress(other) > 0.1
-    assert pair.gap(same, other) == pair.gap(other, same) > 0.1
-
-
-def test_stress_agrees_with_its_naive_twin(pair: SampledPair) -> None:
-    images = np.random.default_rng(2).integers(0, len(pair.target_samples), len(pair.source_samples))
-    ours = pair.source.embedding[pair.source_samples[:JUDGED], :FUNCTIONS]
-    theirs = pair.target.embedding[pair.target_samples[images[:JUDGED]], :FUNCTIONS]
-    here, there = cdist(ours, ours), cdist(theirs, theirs)
-    assert pair.stress(images) == pytest.approx(np.abs(here - there).mean() / here.mean(), rel=1e-6)
-
-
-def test_gap_obeys_the_triangle_inequality(pair: SampledPair) -> None:
-    rng = np.random.default_rng(3)
-    a, b, c = (rng.integers(0, len(pair.target_samples), len(pair.source_samples)) for _ in range(3))
-    assert pair.gap(a, c) <= pair.gap(a, b) + pair.gap(b, c)
-
-
-@pytest.mark.parametrize("scale", [1e-6, 1e6])
-def test_stress_does_not_depend_on_size_or_numbering(scale: float) -> None:
-    mesh, place = permuted(shapes.moved(bumpy(), scale, seed=2))
-    other = measure(mesh).regular
+@functools.cache
+def pair(sense: int) -> SampledPair:
     view = surface(bumpy()).regular
-    pair = SampledPair.of(view, other)
-    index = np.full(mesh.n_vertices, -1)
-    index[pair.target_samples] = np.arange(len(pair.target_samples))
-    truth = index[place[pair.source_samples]]
-    assert (truth >= 0).all()
-    assert pair.stress(truth) < 1e-6
+    return SampledPair(view, view, view.samples(60), view.samples(150), sense)
+
+
+def rooted(values: np.ndarray) -> np.ndarray:
+    return np.sign(values) * np.sqrt(np.abs(values))
+
+
+@pytest.mark.parametrize("sense", [1, -1, 0])
+@pytest.mark.parametrize("k", [6, 14])
+def test_images_agree_with_their_naive_twin(k: int, sense: int) -> None:
+    both = pair(sense)
+    matrix = np.diag(np.where(np.arange(k) % 3 == 1, -1.0, 1.0))
+    matrix += 0.1 * np.random.default_rng(0).standard_normal((k, k))
+    forms = [orientation_forms(both.source, points) for points in (both.source_samples, both.target_samples)]
+    scale = FORM_WEIGHT / np.sqrt(np.abs(forms[0]).mean(axis=0))
+    queries = np.hstack([both.source_rows[:, :k], abs(sense) * rooted(forms[0]) * scale])
+    rows = np.hstack([both.target_rows[:, :k] @ matrix.T, rooted(sense * forms[1] @ minors(matrix).T) * scale])
+    gaps = cdist(queries, rows)
+    found = both.images(matrix)
+    assert np.allclose(gaps[np.arange(len(found)), found], gaps.min(axis=1), atol=1e-4)
+    assert (found == gaps.argmin(axis=1)).mean() > 0.95
+
+
+def test_refinement_goes_from_images_to_matrix_and_back() -> None:
+    both = pair(1)
+    images = np.random.default_rng(0).integers(0, 150, 60)
+    expected = images
+    for k in (6, 10):
+        expected = both.images(both.matrix(expected, k))
+    assert both.refined(images, (6, 10)).tolist() == expected.tolist()
+    assert both.refined(images, ()).tolist() == images.tolist()
+    assert [each.tolist() for each in both.all_refined([images, expected], COARSE)] == [
+        both.refined(each).tolist() for each in (images, expected)
+    ]
+
+
+def test_stress_is_the_mean_difference_of_distances() -> None:
+    both, images = pair(1), np.random.default_rng(0).integers(0, 150, 60)
+    rows = both.target.embedding[both.target_samples, :40]
+    there = cdist(rows[images], rows[images])
+    expected = np.abs(both.source_distances - there).mean()
+    assert mean_difference(both.source_distances, cdist(rows, rows), images) == pytest.approx(expected)
+    assert both.stress(images) == pytest.approx(expected / both.source_distances.mean(), rel=1e-5)
