@@ -118,8 +118,15 @@ def test_points_without_a_place_are_told(tmp_path: Path, status: str) -> None:
     nowhere = {"label": "b", "position": None, "positionStatus": status}
     found = read_landmarks(written(tmp_path, "a.mrk.json", markups(nowhere, there)))
     assert (found.names, found.missing, found.named) == (("a",), ("b",), True)
-    with pytest.raises(BadLandmarkFile, match="without names"):
-        read_landmarks(written(tmp_path, "a.mrk.json", markups({**nowhere, "label": ""}, {**there, "label": ""})))
+    there["label"] = nowhere["label"] = ""
+    with pytest.raises(BadLandmarkFile, match="landmark 2 has no place, and without names"):
+        read_landmarks(written(tmp_path, "a.mrk.json", markups(there, nowhere, there)))
+
+
+def test_fiducials_are_written_as_slicer_writes_them(tmp_path: Path) -> None:
+    """Not turned, visible, selected, not locked."""
+    write_landmarks(tmp_path / "a.fcsv", Landmarks(("F-1",), [[1.5, 2.5, 3.5]]), "LPS")
+    assert (tmp_path / "a.fcsv").read_text() == HEAD + "1,1.5,2.5,3.5,0,0,0,1,1,1,0,F-1,,\n"
 
 
 def test_points_of_faces_come_back(tmp_path: Path) -> None:
