@@ -110,7 +110,7 @@ def _manifold(mesh: Mesh) -> Iterable[Note]:
 
 def _vertices(mesh: Mesh) -> Iterable[Note]:
     yield from _warn("W215", unreferenced_vertices(mesh), "{} vertices are on no face")
-    _, first = np.unique(mesh.vertices + 0.0, axis=0, return_index=True)
+    _, first = np.unique(mesh.vertices, axis=0, return_index=True)
     repeated = np.ones(mesh.n_vertices, dtype=bool)
     repeated[first] = False
     yield from _warn("W219", repeated, "{} vertices are at the position of an earlier one")

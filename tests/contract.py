@@ -9,7 +9,10 @@ CLAUSES: dict[str, tuple[str, str]] = {
     "C4": ("typed errors with code, place and remedy", "test_bad_arrays, test_bad_files, test_mesh"),
     "C5": ("same input, same bits", "test_threads, test_system, test_matching_invariance, test_batch"),
     "C6": ("motion, size, numbering, order do not matter", "test_matching_invariance, test_metrics, test_theorems"),
-    "C7": ("files are whole or untouched; batches resume", "test_system, test_batch, test_batch_killed, test_map_file"),
+    "C7": (
+        "files whole or untouched; batches resume",
+        "test_system, test_batch, test_batch_killed, test_map_damage",
+    ),
     "C8": ("memory is refused before it is taken", "test_memory, test_bad_files, test_map_file"),
     "C9": ("no code, no network, no other file", "test_system, test_bad_files, test_map_file"),
     "C10": ("every loop ends, and soon when cancelled", "test_cli::test_interrupting_ends_with_130, test_threads"),
