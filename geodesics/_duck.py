@@ -12,8 +12,6 @@ from geodesics.errors import NotTriangles
 
 def arrays_of(mesh: Any) -> tuple[Any, Any] | None:
     """The vertices and triangles that `mesh` holds, unchecked; None when it is no mesh object."""
-    if isinstance(mesh, (np.ndarray, list, tuple, str, bytes)) or mesh is None:
-        return None
     for matches, arrays in _KINDS:
         if all(hasattr(mesh, name) for name in matches):
             return arrays(mesh)

@@ -14,7 +14,7 @@ from geodesics._validation import as_faces, as_indices, as_vertices, check_area
 from geodesics.errors import BadShape
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False)
 class Mesh:
     """A triangle mesh with vertices (n, 3) float64 and faces (m, 3) int64, both read-only copies.
 

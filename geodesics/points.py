@@ -15,7 +15,7 @@ from geodesics.errors import BadShape, IndexOutOfRange
 from geodesics.mesh import Mesh
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False)
 class SurfacePoints:
     """Points on a mesh: face (p,) int64 and barycentric (p, 3) float64, weights >= 0 summing to 1.
 

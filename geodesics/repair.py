@@ -48,7 +48,7 @@ def repair(mesh: Mesh, *, weld: bool = False, cut: bool = False, largest: bool =
     notes: list[Note] = []
     of_vertex, faces = np.arange(mesh.n_vertices), mesh.faces
     if weld:
-        _, first, inverse = np.unique(mesh.vertices + 0.0, axis=0, return_index=True, return_inverse=True)
+        _, first, inverse = np.unique(mesh.vertices, axis=0, return_index=True, return_inverse=True)
         of_vertex = first[inverse.reshape(-1)]
         faces = of_vertex[faces]
         _note(notes, "W219", np.flatnonzero(of_vertex != np.arange(mesh.n_vertices)), "vertices welded")
@@ -158,7 +158,8 @@ def fill_holes(mesh: Mesh, max_edges: int = 1000) -> Mesh:
     _refuse_branching(mesh)
     center, size = _frame(mesh)
     unit = (mesh.vertices - center) / size
-    v, f = apply_filter("meshing_close_holes", unit, mesh.faces, maxholesize=int(max_edges), selfintersection=False)
+    below = int(max_edges) + 1  # meshlab closes holes of fewer edges than that
+    v, f = apply_filter("meshing_close_holes", unit, mesh.faces, maxholesize=below, selfintersection=False)
     if len(v) != mesh.n_vertices or not np.array_equal(f[: mesh.n_faces], mesh.faces):
         raise MeshError("closing holes changed the vertices; repair the mesh first")
     return Mesh(mesh.vertices, f)

@@ -45,7 +45,7 @@ class Candidate:
     orientation: float
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False)
 class Correspondence:
     """A map from every vertex of `source` (n of them) to a point of `target`.
 
@@ -54,7 +54,7 @@ class Correspondence:
     preserved, over the mean distance; small is trustworthy. `candidates`: other maps, best first. `meta`: parameters,
     seed, versions and timings, as JSON can carry them.
 
-    Raises `MapError` when a row is missing, not finite, or lies on another mesh than `target`.
+    Raises `MapError` when a row is missing, lies on another mesh than `target`, or its distortion is not finite.
     """
 
     source: Mesh
@@ -77,9 +77,9 @@ class Correspondence:
         ):
             if rows != n:
                 raise MapError(f"{name} has {rows} rows; the source has {n} vertices and a map one row for each")
-        bad = np.flatnonzero(~np.isfinite(self.points.barycentric).all(axis=1) | ~np.isfinite(self.distortion))
+        bad = np.flatnonzero(~np.isfinite(self.distortion))
         if len(bad):
-            raise MapError(f"row {bad[0]} is not finite ({len(bad)} such rows)")
+            raise MapError(f"the distortion of row {bad[0]} is not finite ({len(bad)} such rows)")
         for name, dtype in (("valid", np.bool_), ("distortion", np.float64)):
             array = np.array(getattr(self, name), dtype=dtype).reshape(-1)
             array.setflags(write=False)
@@ -178,8 +178,6 @@ class Correspondence:
         status = MatchStatus.__members__.get(str(meta.pop("status", "UNRATED")), MatchStatus.UNRATED)
         meta = {key: value for key, value in meta.items() if key not in ("format", "version", "source", "target")}
         try:
-            if (arrays["barycentric"] < -1e-9).any() or (abs(arrays["barycentric"].sum(axis=1) - 1) > 1e-6).any():
-                raise MapError("barycentric weights must be >= 0 and sum to 1 in every row")
             points = SurfacePoints(target, arrays["face"], arrays["barycentric"])
             return cls(source, target, points, arrays["valid"], arrays["distortion"], status, (), meta)
         except ValueError as error:

@@ -5,7 +5,15 @@ from __future__ import annotations
 import struct
 
 import numpy as np
-from file_cases import OBJ, OFF, PLY, PLY_HEAD, STL, STL_BINARY, binary_ply, glb, setting
+from file_cases import OBJ, OFF, PLY, PLY_HEAD, STL, STL_BINARY, V, binary_ply, glb, one_view, setting
+
+
+def json_alone() -> bytes:
+    """A GLB that ends before its numbers."""
+    whole = glb()
+    end = 20 + int.from_bytes(whole[12:16], "little")
+    return whole[:8] + struct.pack("<I", end) + whole[12:end]
+
 
 REFUSED: list[tuple[str, str, str | bytes, str, str]] = [
     *[("F01", f"empty.{kind}", b"", "E201", "empty") for kind in ("off", "obj", "ply", "stl", "glb", "vert", "tri")],
@@ -22,7 +30,7 @@ REFUSED: list[tuple[str, str, str | bytes, str, str]] = [
     ("F07", "header.ply", PLY_HEAD[:-5], "E204", "end_header"),
     ("F07", "declared.obj", "# Faces: 5\n" + OBJ, "E204", "5 faces"),
     *[("F08", f"count{i}.off", OFF.replace("4 4 6", f"{n} 4 6"), "E205", "line 2")
-      for i, n in enumerate(["2000000000", "9223372036854775808", "9" * 5000, "-4", "four", "4.0", "1_0", "2e9"])],
+      for i, n in enumerate(["20", "2000000000", str(2**63), "9" * 5000, "-4", "four", "4.0", "1_0", "2e9"])],
     *[("F08", f"faces{i}.off", OFF.replace("4 4 6", f"4 {n} 6"), "E205", "line 2")
       for i, n in enumerate(["2000000000", "-1", "x"])],
     ("F08", "count.off", OFF.replace("4 4 6", "4"), "E205", "line 2"),
@@ -30,10 +38,12 @@ REFUSED: list[tuple[str, str, str | bytes, str, str]] = [
       for i, n in enumerate(["2000000000", "9223372036854775808", "-4", "four"])],
     ("F08", "counts.ply", PLY.replace("vertex 4", "vertex 100"), "E204", "promises"),
     ("F09", "degree.off", OFF.replace("3 1 3 2", "1000000000 1 3 2"), "E206", "line 10"),
-    *[("F09", f"degree{i}.off", OFF.replace("3 1 3 2", f"{i} 1 3 2"), "E206", f"{i} corners") for i in range(3)],
+    *[("F09", f"degree{i}.off", OFF.replace("3 1 3 2", f"{i} 1 3 2"), "E206", f"{i} corners") for i in range(-1, 3)],
     ("F09", "degree.ply", PLY.replace("3 1 3 2", "1000000000 1 3 2"), "E206", "line 17"),
     ("F09", "degree2.ply", PLY.replace("3 1 3 2", "2 1 3"), "E206", "2 corners"),
     ("F09", "degree.obj", OBJ.replace("f 2 4 3", "f 2 4"), "E206", "line 8"),
+    ("F09", "degree2_binary.ply", PLY_HEAD.replace("ascii", "binary_little_endian").encode() + V.astype("<f4").tobytes()
+     + struct.pack("<B2i", 2, 0, 1) * 4, "E206", "faces of [2] corners"),
     ("F09", "degree_binary.ply", binary_ply().replace(b"\x03\0\0\0\0", b"\xff\0\0\0\0"), "E204", "promises"),
     *[("F10", f"token{i}.off", OFF.replace("1 -1 -1", f"1 {t} -1"), "E207", "line 4")
       for i, t in enumerate(["nan", "inf", "-Infinity", "1,5", "0x10", "1_000", "1e", "--1", "1.2.3", "\uff11"])],
@@ -54,9 +64,22 @@ REFUSED: list[tuple[str, str, str | bytes, str, str]] = [
     *[("F11", f"index{i}.obj", OBJ.replace("f 2 4 3", f"f 2 {t} 3"), "E105", "line 8")
       for i, t in enumerate(["0", "5", "-5", "1" * 20])],
     ("F13", "count.stl", STL_BINARY[:80] + struct.pack("<I", 5) + STL_BINARY[84:], "E204", "5 triangles"),
+    ("F13", "no_facets.stl", bytes(84), "E103", "no vertices"),
+    ("F13", "no_count.stl", bytes(83), "E204", "83"),
     ("F13", "open.stl", STL.replace("endsolid thing\n", ""), "E204", "endsolid"),
     ("F13", "facet.stl", STL.replace("endloop", "", 1), "E204", "endloop"),
     ("F14", "type.ply", PLY.replace("property float x", "property quaternion x"), "E207", "line 4"),
+    ("F14", "no_vertex.ply", PLY.replace("element vertex", "element point"), "E200", "no vertices"),
+    ("F14", "no_face.ply", PLY.replace("element face", "element side"), "E104", "no faces"),
+    ("F14", "no_face_binary.ply", binary_ply().replace(b"element face", b"element side"), "E104", "no faces"),
+    ("F14", "keyword.ply", PLY.replace("end_header", "elements 3\nend_header"), "E207", "line 9"),
+    ("F14", "early.ply", PLY.replace("element vertex", "property int i\nelement vertex"), "E207", "line 3"),
+    ("F14", "element.ply", PLY.replace("vertex 4", "vertex 4 5"), "E207", "line 3"),
+    ("F14", "list.ply", PLY.replace("list uchar int", "list uchar"), "E207", "line 8"),
+    ("F14", "list_type.ply", PLY.replace("list uchar int", "list uchar quaternion"), "E207", "line 8"),
+    ("F14", "columns.ply", PLY.replace("-1 1 -1", "-1 1"), "E204", "line 12"),
+    ("F14", "list_length.ply", PLY.replace("3 0 3 1", "4 0 3 1"), "E206", "line 16"),
+    ("F14", "list_length_word.ply", PLY.replace("3 0 3 1", "x 0 3 1"), "E207", "line 16"),
     ("F14", "axis.ply", PLY.replace("property float x", "property float u"), "E200", "x, y, z"),
     ("F14", "encoding.ply", PLY.replace("ascii", "ebcdic"), "E200", "ebcdic"),
     ("F14", "indices.ply", PLY.replace("vertex_indices", "things"), "E200", "vertex_indices"),
@@ -69,6 +92,18 @@ REFUSED: list[tuple[str, str, str | bytes, str, str]] = [
     ("F17", "many.glb", glb(lambda t: t["meshes"].append(t["meshes"][0])), "E209", "2 mesh parts"),
     ("F17", "placed_twice.glb", glb(lambda t: (t["nodes"].append({"mesh": 0, "translation": [5, 0, 0]}),
                                                t["scenes"][0]["nodes"].append(1))), "E209", "2 meshes"),
+    ("F17", "header.glb", glb()[:19], "E204", "19 bytes"),
+    ("F17", "version.glb", glb().replace(b"glTF\2", b"glTF\1"), "E209", "version 2"),
+    ("F17", "strip.glb", glb(setting("meshes", 0, "primitives", 0, "mode", value=5)), "E209", "indexed triangles"),
+    ("F17", "no_indices.glb", glb(lambda t: t["meshes"][0]["primitives"][0].pop("indices")), "E209", "indexed"),
+    ("F17", "sparse.glb", glb(setting("accessors", 0, "sparse", value={})), "E209", "sparse"),
+    ("F17", "offset.glb", glb(lambda t: (one_view(t), t["accessors"][1].update(byteOffset=49))), "E209", "24 bytes"),
+    ("F17", "view_offset.glb", glb(setting("bufferViews", 1, "byteOffset", value=49)), "E209", "accessor 1"),
+    ("F17", "before.glb", glb(setting("bufferViews", 0, "byteOffset", value=-1)), "E209", "negative"),
+    ("F17", "node.glb", glb(setting("nodes", 0, "mesh", value=7)), "E209", "can not be read"),
+    ("F17", "quantity.glb", glb(setting("accessors", 0, "type", value="VEC4")), "E209", "malformed"),
+    ("F17", "no_data.glb", json_alone(), "E209", "needs 24 bytes"),
+    ("F17", "image.glb", glb(setting("images", value=[{"uri": "a.png"}])), "E222", "not opened"),
     ("F17", "nothing.glb", glb(lambda t: t.clear()), "E209", "0 mesh parts"),
     ("F17", "types.glb", glb(setting("meshes", value={"a": 1})), "E209", "malformed"),
     ("S03", "uri.glb", glb(setting("buffers", 0, "uri", value="../../etc/passwd")), "E222", "not opened"),

@@ -52,9 +52,13 @@ def binary_ply(order: str = "<", count: str = "uchar", index: str = "int", extra
     return head.encode() + body
 
 
-def glb(change: Any = None, cut: int = 0, pad: bytes = b"") -> bytes:
-    """A GLB with one indexed mesh; `change` edits the JSON tree before it is packed."""
-    blob = V.astype("<f4").tobytes() + F.astype("<u2").tobytes()
+COMPONENTS = {"i1": 5120, "u1": 5121, "<i2": 5122, "<u2": 5123, "<u4": 5125, "<f4": 5126}
+
+
+def glb(change: Any = None, pad: bytes = b"", kinds: tuple[str, str] = ("<f4", "<u2"), v: np.ndarray = V) -> bytes:
+    """A GLB with one indexed mesh of these number types; `change` edits the JSON tree before it is packed."""
+    size = 12 * np.dtype(kinds[0]).itemsize, 12 * np.dtype(kinds[1]).itemsize
+    blob = v.astype(kinds[0]).tobytes() + F.astype(kinds[1]).tobytes()
     tree: dict[str, Any] = {
         "asset": {"version": "2.0"},
         "scene": 0,
@@ -62,22 +66,21 @@ def glb(change: Any = None, cut: int = 0, pad: bytes = b"") -> bytes:
         "nodes": [{"mesh": 0}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
         "accessors": [
-            {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
-            {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"},
+            {"bufferView": 0, "componentType": COMPONENTS[kinds[0]], "count": 4, "type": "VEC3"},
+            {"bufferView": 1, "componentType": COMPONENTS[kinds[1]], "count": 12, "type": "SCALAR"},
         ],
         "bufferViews": [
-            {"buffer": 0, "byteOffset": 0, "byteLength": 48},
-            {"buffer": 0, "byteOffset": 48, "byteLength": 24},
+            {"buffer": 0, "byteOffset": 0, "byteLength": size[0]},
+            {"buffer": 0, "byteOffset": size[0], "byteLength": size[1]},
         ],
-        "buffers": [{"byteLength": 72}],
+        "buffers": [{"byteLength": sum(size)}],
     }
     if change:
         change(tree)
     text = json.dumps(tree).encode()
     text += b" " * (-len(text) % 4)
     chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(blob), b"BIN\0") + blob
-    whole = struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks + pad
-    return whole[: len(whole) - cut]
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks + pad
 
 
 def setting(*path: Any, value: Any) -> Any:
@@ -92,6 +95,15 @@ def setting(*path: Any, value: Any) -> Any:
 def loop_nodes(tree: Any) -> None:
     tree["nodes"] = [{"mesh": 0, "children": [1]}, {"children": [0]}]
 
+
+def one_view(tree: Any) -> None:
+    """Positions and indices in one view, offsets of zero left out."""
+    tree["bufferViews"] = [{"buffer": 0, "byteLength": 72}]
+    tree["accessors"][1] |= {"bufferView": 0, "byteOffset": 48}
+
+
+QUARTER = [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1]  # (x, y, z) becomes (1 - y, 2 + x, 3 + z); by columns
+UNTURNED = np.column_stack([V[:, 1] - 2, 1 - V[:, 0], V[:, 2] - 3])
 
 READ: list[tuple[str, str, str | bytes]] = [
     ("F06", "wrong.obj", OFF),
@@ -126,11 +138,16 @@ READ: list[tuple[str, str, str | bytes]] = [
     ("F12", "crlf.ply", PLY.replace("\n", "\r\n")),
     ("F12", "no_newline.ply", PLY.rstrip()),
     ("F12", "comment.ply", PLY.replace("element vertex", "comment TextureFile /x\nobj_info x\nelement vertex")),
+    ("F12", "cr.ply", PLY.replace("\n", "\r")),
     ("F13", "binary_solid.stl", STL_BINARY),
     ("F13", "upper.stl", STL.upper()),
     ("F13", "two.stl", f"solid a\n{''.join(facet(V[f]) for f in F[:2])}endsolid a\n"
      f"solid b\n{''.join(facet(V[f]) for f in F[2:])}endsolid b\n"),
     ("F13", "indented.stl", STL.replace("\n", "\r\n\t ")),
+    ("F14", "singular.ply", PLY.replace("vertex_indices", "vertex_index")),
+    ("F14", "order.ply", PLY.replace("float x", "float t").replace("float z", "float x").replace("float t", "float z")
+     .replace(V_TEXT, "".join(f"{z} {y} {x}\n" for x, y, z in V.tolist()))),
+    ("F14", "empty_element.ply", PLY.replace("end_header", "element edge 0\nproperty int vertex1\nend_header")),
     ("F14", "little.ply", binary_ply()),
     ("F14", "big.ply", binary_ply(">")),
     ("F14", "types.ply", binary_ply("<", "int", "ushort")),
@@ -147,5 +164,10 @@ READ: list[tuple[str, str, str | bytes]] = [
     ("F16", "spaces and ünïcode.off", OFF),
     ("F16", "-dash.off", OFF),
     ("F17", "one.glb", glb()),
+    *[("F17", f"indices{i}.glb", glb(kinds=("<f4", kind))) for i, kind in enumerate(("u1", "<u4"))],
+    *[("F17", f"positions{i}.glb", glb(kinds=(kind, "<u2"))) for i, kind in enumerate(("i1", "<i2"))],
+    ("F17", "one_view.glb", glb(one_view)),
+    ("F17", "triangles.glb", glb(setting("meshes", 0, "primitives", 0, "mode", value=4))),
+    ("F17", "placed.glb", glb(setting("nodes", 0, "matrix", value=QUARTER), v=UNTURNED)),
     ("F17", "loop.glb", glb(loop_nodes)),
 ]  # fmt: skip

@@ -44,7 +44,8 @@ OBJECTS = {
     "trimesh or ours": SimpleNamespace(vertices=V, faces=F),
     "open3d": SimpleNamespace(vertices=V, triangles=F.astype(np.int32)),
     "pyvista PolyData": SimpleNamespace(points=V, faces=flat_faces()),
-    "pyvista UnstructuredGrid": SimpleNamespace(points=V, cells=flat_faces(), cells_dict={5: F}),
+    "faces as rows beside points": SimpleNamespace(points=V, faces=F),
+    "pyvista UnstructuredGrid": SimpleNamespace(points=V, cells=flat_faces(), cells_dict={5: F, 3: F[:, :2], 1: F[:1]}),
     "meshio": SimpleNamespace(points=V, cells=[], cells_dict={"triangle": F, "line": F[:, :2]}),
 }
 
@@ -68,6 +69,8 @@ def test_v16_objects_with_other_cells_are_refused() -> None:
     for other in (
         SimpleNamespace(points=V, cells_dict={"tetra": [[0, 1, 2, 3]]}),
         SimpleNamespace(points=V, faces=np.array([4, 0, 1, 2, 3])),
+        SimpleNamespace(points=V, faces=np.array([4, 0, 1, 2, 3, 2, 0, 1])),  # a quad and a line
+        SimpleNamespace(points=V, faces=np.array([3, 0, 1, 2, 4, 0, 1, 2, 3])),
     ):
         with pytest.raises(MeshError, match="E109"):
             Mesh(other)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import stat
+import struct
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ from broken_files import REFUSED
 from file_cases import OBJ, OFF, PLY_HEAD, READ, STL_BINARY, V_TEXT, F, V
 from reading import read_in_child
 
-from geodesics import FormatError, Mesh, read_mesh, read_with_notes, write_mesh
+from geodesics import FormatError, Mesh, MeshError, read_mesh, read_with_notes, write_mesh
 
 
 @pytest.fixture(scope="module")
@@ -34,11 +35,7 @@ def test_read(outcomes: dict[str, dict[str, Any]], row: str, name: str) -> None:
     outcome = outcomes[name]
     assert "code" not in outcome, outcome
     vertices, faces = np.array(outcome["vertices"]), np.array(outcome["faces"])
-    if name.endswith(".stl") or row == "F13" or name == "unknown.xyz":  # numbered by first appearance
-        assert vertices.shape == (4, 3)
-        assert np.array_equal(vertices[faces], V[F])
-    else:
-        assert np.array_equal(vertices, V) and np.array_equal(faces, F)
+    assert np.array_equal(vertices, V) and np.array_equal(faces, F)  # STL: numbered by first appearance
     assert outcome["printed"] == ""
 
 
@@ -101,6 +98,20 @@ def test_f09_polygons_are_split_about_their_first_corner_and_that_is_told(tmp_pa
     obj = "".join(f"v {line}\n" for line in quads.split("\n")[2:7]) + "f 1 2 3 4\nf 2 5 3\n"
     (tmp_path / "a.obj").write_text(obj)
     assert np.array_equal(read_mesh(tmp_path / "a.obj").faces, mesh.faces)
+
+
+def test_f09_f11_polygons_of_binary_ply_keep_their_numbers(tmp_path: Path) -> None:
+    head = PLY_HEAD.replace("ascii", "binary_little_endian").replace("face 4", "face 2").encode()
+    corners = V.astype("<f4").tobytes()
+    for name, last in (("good", 3), ("high", 4), ("low", -1)):
+        quads = struct.pack("<B4iB4i", 4, 0, 1, 2, 3, 4, 1, 0, 2, last)
+        (tmp_path / f"{name}.ply").write_bytes(head + corners + quads)
+    mesh, notes = read_with_notes(tmp_path / "good.ply")
+    assert mesh.faces.tolist() == [[0, 1, 2], [0, 2, 3], [1, 0, 2], [1, 2, 3]]
+    assert [note.code for note in notes] == ["W210"]
+    for name in ("high", "low"):
+        with pytest.raises(MeshError, match=r"E105: .*face 1 = \[ ?1 +0 +2"):
+            read_mesh(tmp_path / f"{name}.ply")
 
 
 def test_f11_negative_obj_indices_count_back_from_the_vertices_so_far(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from odd_shapes import bow_tie as touching_balls
 from shapes import bumpy_sphere, cylinder, icosphere, joined, moved, rectangle, tetrahedron, torus, with_isolated
 
 from geodesics import Mesh, Note, orient_faces, read_mesh
@@ -79,16 +80,30 @@ def test_each_defect_is_found_where_it_is() -> None:
 def test_components_and_coincident_vertices() -> None:
     twice = Mesh(np.vstack([icosphere(1).vertices] * 2), np.vstack([icosphere(1).faces, icosphere(1).faces + 42]))
     found = notes(twice)
-    assert found["W216"].message.startswith("2 components")
-    assert len(found["W219"].indices) == 42
+    assert found["W216"].message == "2 components, of 42, 42 vertices"
+    assert found["W219"].indices == tuple(range(42, 84))
+    many = joined(*[icosphere(0)] * 5, with_isolated(icosphere(1)), tetrahedron())
+    assert notes(many)["W216"].message == "7 components, of 42, 12, 12, 12, 12 vertices"
+
+
+def test_warnings_come_first_and_a_note_counts_all_and_lists_a_hundred() -> None:
+    mesh = icosphere(2)
+    found = check(with_faces(rectangle(4, 4), *rectangle(4, 4).faces.tolist()))
+    assert [note.severity for note in found] == sorted((note.severity for note in found), reverse=True)
+    assert {note.severity for note in found} == {"warning", "info"}
+    twice = notes(with_faces(mesh, *mesh.faces.tolist()))["W201"]
+    assert twice.message.startswith("320 ") and twice.count == 320
+    assert twice.indices == tuple(range(320, 420))
 
 
 def test_bow_tie_vertex() -> None:
     v = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0.5], [0, -1, 0.5]])
     found = notes(Mesh(v, [[0, 1, 2], [0, 3, 4]]))
     assert found["W214"].indices == (0,)
-    assert found["W217"].message.startswith("2 boundary loops")
+    assert found["W217"].message == "2 boundary loops with 6 edges"
     assert "W213" not in found
+    assert notes(cylinder(32, 16))["W217"].message == "2 boundary loops with 64 edges"
+    assert notes(touching_balls().mesh)["W218"].message == "Euler characteristic 3, genus 0"
 
 
 @pytest.mark.parametrize("scale", [1e-12, 1.0, 1e12])
@@ -136,6 +151,18 @@ def test_inside_out_closed_parts_are_turned_each_on_its_own() -> None:
     outward = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     assert (np.einsum("fi,fi->f", outward, corners.mean(axis=1)) > 0).all()
     assert np.array_equal(fixed.faces[sphere.n_faces :], both.faces[sphere.n_faces :])
+
+
+def test_what_has_no_inside_is_not_inside_out() -> None:
+    """Open parts, whichever way they bulge; and closed ones that are folded flat."""
+    ball, sheet = icosphere(2), rectangle(4, 4)
+    bowl = Mesh(ball.vertices, ball.faces[ball.vertices[ball.faces].mean(axis=1)[:, 2] < 0.3][:, ::-1])
+    rim = (sheet.vertices[:, :2] % 1 == 0).any(axis=1)
+    back = np.where(rim, np.arange(25), 25 + np.arange(25))
+    folded = Mesh(np.vstack([sheet.vertices] * 2), np.vstack([sheet.faces, back[sheet.faces][:, ::-1]]))
+    for seed in range(4):
+        for mesh in (moved(bowl, 1.0, seed), moved(folded, 1.0, seed)):
+            assert orient_faces(mesh) is mesh and "W204" not in notes(mesh)
 
 
 def test_a_moebius_strip_has_no_orientation_and_stays_as_it_is() -> None:

@@ -34,6 +34,7 @@ def on_faces(mesh: Mesh, vertices: Any) -> Any:
         (PAIRS[:, 0].tolist(), PAIRS[:, 1].tolist()),
         [PAIRS[:, 0], PAIRS[:, 1]],
         (A.vertices[PAIRS[:, 0]], B.vertices[PAIRS[:, 1]]),
+        (A.vertices[PAIRS[:, 0]].tolist(), B.vertices[PAIRS[:, 1]].tolist()),
         (A.vertices[PAIRS[:, 0]], PAIRS[:, 1]),
         (SurfacePoints.at_vertices(A, PAIRS[:, 0]), PAIRS[:, 1]),
         (on_faces(A, PAIRS[:, 0]), on_faces(B, PAIRS[:, 1])),
@@ -64,6 +65,9 @@ REFUSED: list[tuple[str, Any, str]] = [
     ("E302", (A.vertices[[1, 2, 1]], [1, 2, 3]), "of the source"),
     ("E303", (np.arange(4), np.arange(3)), "4 landmarks on the source but 3"),
     ("E305", (A.vertices[[1, 2]] + [[0, 0, 0], [0, 0, 9]], [1, 2]), "landmark 1"),
+    ("E300", np.ma.masked_equal(PAIRS, 3), "indices or positions"),
+    ("E300", (np.zeros((2, 5)), [1, 2]), "(k, 4), not (2, 5)"),
+    ("E300", (np.zeros((1, 1, 3)), [1]), "(k, 4), not (1, 1, 3)"),
     ("E300", "nose", "indices or positions"),
     ("E300", [], "(k, 2)"),
     ("E300", [[1, 2, 3], [4, 5, 6], [7, 8, 9]], "(k, 2)"),
@@ -75,12 +79,13 @@ REFUSED: list[tuple[str, Any, str]] = [
     ("E300", (SurfacePoints.at_vertices(B, [1, 2]), [1, 2]), "another mesh"),
     ("E300", {"nose": 3}, "indices or positions"),
     ("E301", ([[0, 1, 0, 0], [A.n_faces, 1, 0, 0]], [1, 2]), "faces 0 to 319"),
-    ("E301", ([[0.5, 1, 0, 0]], [1]), "the source has faces"),
+    *[("E301", ([[face, 1, 0, 0]], [1]), "the source has faces") for face in (0.5, -1, np.nan, np.inf)],
     ("E300", ([[0, 0.7, 0.7, 0]], [1]), "barycentric weights of the source"),
     ("E302", ([[0, 0.5, 0.5, 0], [0, 0.5, 0.5, 0]], [1, 2]), "landmarks 0 and 1"),
     ("E300", SoftLandmarks(PAIRS, [0.1, 0.2]), "or 3 of them"),
     ("E300", SoftLandmarks(PAIRS, -0.1), "0 or a positive number"),
     ("E300", SoftLandmarks(PAIRS, np.nan), "0 or a positive number"),
+    ("E300", SoftLandmarks(PAIRS, np.inf), "0 or a positive number"),
     ("E300", SoftLandmarks(PAIRS, "soft"), "must be a number"),
     ("E301", SoftLandmarks([[3, 5], [A.n_vertices, 1]]), "landmark 1"),
 ]
@@ -108,6 +113,32 @@ def test_v18_positions_near_the_surface_are_moved_to_it_and_the_move_is_told(sca
     assert np.linalg.norm(placed.on_source.positions - a.vertices[index], axis=1).max() < 0.03 * scale
     assert [note.code for note in placed.notes] == ["W301"] and placed.notes[0].indices == (0,)
     assert place_landmarks((a.vertices[index], index), a, B).notes == ()
+
+
+def test_v18_five_percent_of_the_diagonal_of_the_surface_is_the_most() -> None:
+    """Vertices on no face are no part of the surface."""
+    for mesh in (icosphere(2), with_isolated(icosphere(2))):
+        index = mesh.faces[5]
+        diagonal = np.linalg.norm(np.ptp(mesh.vertices[mesh.faces], axis=(0, 1)))
+        out = mesh.vertices[index] / np.linalg.norm(mesh.vertices[index], axis=1, keepdims=True) * diagonal
+        placed = place_landmarks((index, mesh.vertices[index] + [[0.049], [0], [0.02]] * out), mesh, mesh)
+        assert placed.notes[0].indices == (0, 2) and "by up to 4.90% of" in placed.notes[0].message
+        assert "of the target" in placed.notes[0].message
+        with pytest.raises(LandmarkError, match=r"E305: landmark 1 lies 5\.1%"):
+            place_landmarks((index, mesh.vertices[index] + [[0.049], [0.051], [0.0]] * out), mesh, mesh)
+
+
+def test_tolerances_are_one_each() -> None:
+    assert place_landmarks(SoftLandmarks(PAIRS, 0.1), A, B).tolerance.tolist() == [0.1] * 3
+    assert place_landmarks(SoftLandmarks(PAIRS, [0, 0.2, 0.3]), A, B).tolerance.tolist() == [0, 0.2, 0.3]
+    assert place_landmarks(PAIRS, A, B).tolerance.tolist() == [0] * 3
+    assert (place_landmarks(SoftLandmarks(PAIRS), A, B).tolerance > 0).all()
+
+
+def test_the_last_face_and_the_last_vertex_carry_landmarks() -> None:
+    given = ([[A.n_faces - 1, 0.5, 0.5, 0]], [B.n_vertices - 1])
+    on_a, on_b = check_landmarks(given, A, B)
+    assert on_a.face.tolist() == [A.n_faces - 1] and on_b.nearest_vertices().tolist() == [B.n_vertices - 1]
 
 
 @pytest.mark.parametrize("wrong", [0, -1, 2, B.n_vertices + 1, 10**30, 5.0, "5", True, None, np.nan, np.float64(5)])

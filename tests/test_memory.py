@@ -47,3 +47,18 @@ def test_what_is_free_is_what_the_system_and_the_group_leave(tmp_path: Path) -> 
         (tmp_path / "memory.current").write_text(used)
         assert memory._of_the_group(tmp_path) == left
     assert memory._of_the_group(tmp_path / "none") == np.inf
+
+
+def test_what_the_system_says_is_free_is_believed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Path, "read_text", lambda *_, **__: "MemTotal:  9000000 kB\nMemAvailable:    3000000 kB\n")
+    assert memory._of_the_system() == 3_000_000 * 1024
+
+
+def test_without_its_word_half_of_what_there_is_counts_as_free(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not even that is known everywhere: then nothing is refused."""
+    monkeypatch.setattr(Path, "read_text", lambda *_, **__: "no such line")
+    sizes = {"SC_PHYS_PAGES": 1_000_000, "SC_PAGE_SIZE": 4096}
+    monkeypatch.setattr(memory.os, "sysconf", sizes.__getitem__, raising=False)
+    assert memory._of_the_system() == 2_048_000_000
+    monkeypatch.delattr(memory.os, "sysconf")
+    assert memory._of_the_system() == np.inf

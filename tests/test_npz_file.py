@@ -46,6 +46,13 @@ def test_sound_arrays_come_back(tmp_path: Path, dtype: str, shape: tuple[int, ..
         assert again.dtype == array.dtype and np.array_equal(again, array)
 
 
+@pytest.mark.parametrize("version", [(1, 0), (2, 0), (3, 0)])
+def test_every_version_of_the_header_is_read(tmp_path: Path, version: tuple[int, int]) -> None:
+    with (tmp_path / "a.npy").open("wb") as stream:
+        np.lib.format.write_array(stream, np.arange(6).reshape(2, 3), version=version)
+    assert read_npy(tmp_path / "a.npy").tolist() == [[0, 1, 2], [3, 4, 5]]
+
+
 LIES = {
     "10^12 numbers": npy((10**12,)),
     "10^30 numbers": npy((10**30,)),

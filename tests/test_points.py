@@ -28,6 +28,8 @@ REFUSED: list[tuple[str, Any, Any, str]] = [
     ("E108", [0, 1], [[1, 0, 0]], "(2, 3)"),
     ("E108", [[0]], [[1, 0, 0]], "(p,)"),
     ("E108", [0], [[1, 0]], "(1, 3)"),
+    ("E108", [0], [], "(1, 3)"),
+    ("E108", [], [[1, 0, 0]], "(0, 3)"),
     ("E107", [0], [[True, False, False]], "real numbers"),
     ("E115", [0, 1], [[1, 0, 0], [np.nan, 0, 1]], "point 1"),
     ("E115", [0, 1], [[1, 0, 0], [np.inf, 0, 1]], "point 1"),
@@ -70,7 +72,7 @@ def test_positions_at_vertices_are_the_vertices() -> None:
     points = SurfacePoints.at_vertices(MESH, index)
     assert np.array_equal(points.positions, MESH.vertices[index])
     assert np.array_equal(points.nearest_vertices(), index)
-    assert len(SurfacePoints.at_vertices(MESH, [])) == 0
+    assert len(SurfacePoints.at_vertices(MESH, [])) == 0 and SurfacePoints(MESH, [], []).barycentric.shape == (0, 3)
     assert len(SurfacePoints.at_vertices(MESH, 3)) == 1
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from file_cases import OFF, PLY, READ, STL
+from file_cases import OFF, PLY, PLY_HEAD, READ, STL
 from reading import read_in_child
 from shapes import icosphere, rectangle
 
@@ -66,6 +66,38 @@ def test_f07_no_truncation_at_any_byte_passes_as_another_mesh(tmp_path: Path) ->
     assert refused > 2000
 
 
+TEXTS = {  # format: what is above the vertices, before and after each face, and the index of the first vertex
+    "off": ("OFF\n{} {} 0\n", "3 ", "", 0),
+    "obj": ("", "f ", "", 1),
+    "ply": (PLY_HEAD.replace("4", "{}"), "3 ", "", 0),
+    "coloured.ply": (
+        PLY_HEAD.replace("4", "{}").replace("indices\n", "indices\nproperty uchar red\n"),
+        "3 ",
+        " 255",
+        0,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_a_last_digit_that_is_missing_is_missed(tmp_path: Path, name: str) -> None:
+    """Vertex 40 or so of the last face has become 4; with something behind it the cut is seen to be elsewhere."""
+    head, before, after, base = TEXTS[name]
+    mesh = icosphere(1)
+    faces = np.roll(mesh.faces, -1 - int(np.argmax(mesh.faces.max(axis=1))), axis=0)
+    faces[-1] = np.roll(faces[-1], 2 - int(faces[-1].argmax()))
+    assert faces[-1, 2] == 41
+    lines = [("v " if name == "obj" else "") + " ".join(map(repr, row)) for row in mesh.vertices.tolist()]
+    lines += [before + " ".join(map(str, row)) + after for row in (faces + base).tolist()]
+    whole = head.format(mesh.n_vertices, mesh.n_faces) + "\n".join(lines)
+    path = tmp_path / f"mesh.{name}"
+    path.write_text(whole)
+    assert np.array_equal(read_mesh(path).faces, faces)
+    path.write_text(whole[:-1])
+    with nullcontext() if after else pytest.raises(FormatError, match="E204"):
+        assert np.array_equal(read_mesh(path).faces, faces)
+
+
 @pytest.mark.parametrize(
     ("end", "last", "n_vertices", "base", "doubted"),
     [
@@ -84,8 +116,9 @@ def test_only_an_index_that_may_have_lost_digits_is_doubted(
     def ask(neighbours: list[list[int]], any_size: bool = False) -> None:
         refuse_cut_face(f"3 0 2 {end}".encode(), [*neighbours, last], n_vertices, base, Path("a"), any_size=any_size)
 
-    with pytest.raises(FormatError, match="E204") if doubted else nullcontext():
-        ask([[3, 4, 5]])
+    for neighbour in ([3, 4, 5], [3, 4, 5, 6]):  # a last face may well be smaller than others
+        with pytest.raises(FormatError, match="E204") if doubted else nullcontext():
+            ask([neighbour])
     ask([last[::-1]])  # every edge is shared: the face fits
     with nullcontext() if end.endswith("\n") else pytest.raises(FormatError, match="E204"):
         ask([[3, 4, 5, 6]], any_size=True)  # a quad may have lost its last corner

@@ -13,7 +13,7 @@ from geodesics.errors import BadContainer, ExternalReference, TruncatedFile
 from geodesics.io.text import Contents
 
 _ITEM_BYTES = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}
-_ITEMS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
+_ITEMS = {"SCALAR": 1, "VEC3": 3}
 
 
 def read_glb(data: bytes, path: Path) -> Contents:

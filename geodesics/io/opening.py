@@ -57,4 +57,4 @@ def sniff(data: bytes, path: Path) -> str:
 
 def is_binary_stl(data: bytes) -> bool:
     """Whether the triangle count of a binary STL header agrees with the length, the one sign that can be trusted."""
-    return len(data) >= 84 and len(data) == 84 + 50 * int.from_bytes(data[80:84], "little")
+    return len(data) == 84 + 50 * int.from_bytes(data[80:84], "little")

@@ -52,7 +52,7 @@ def _read_ascii(data: bytes, path: Path) -> NDArray[np.float64]:
 
 def _weld(soup: NDArray[np.float64]) -> Contents:
     """Equal positions become one vertex, numbered by first appearance."""
-    _, first, inverse = np.unique(soup + 0.0, axis=0, return_index=True, return_inverse=True)
+    _, first, inverse = np.unique(soup, axis=0, return_index=True, return_inverse=True)
     rank = np.empty(len(first), dtype=np.int64)
     order = np.argsort(first)
     rank[order] = np.arange(len(first))

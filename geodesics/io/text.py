@@ -25,7 +25,7 @@ from geodesics.io.opening import LONGEST_LINE
 _DECIMAL = frozenset("0123456789+-.eE")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Contents:
     """What a file holds: vertices (n, 3), triangles (m, 3) and the notes taken on the way."""
 
@@ -103,9 +103,9 @@ def corners(row: Row, first: int, n_vertices: int, base: int, path: Path) -> lis
     """A face line `degree i j k ...` whose degree is word `first`: its 0-based corners, all checked."""
     place = f"{path}, line {row.line}"
     degree = whole(row.words[first], place)
-    words = row.words[first + 1 : first + 1 + degree] if degree >= 0 else []
     if degree < 3:
         raise BadPolygon(f"{place}: a face of {degree} corners; a face has at least three")
+    words = row.words[first + 1 : first + 1 + degree]
     if len(words) < degree:
         raise BadPolygon(f"{place}: a face of {row.words[first][:40]} corners, but the line holds {len(words)}")
     return [vertex_index(word, n_vertices, base, place) for word in words]

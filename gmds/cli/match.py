@@ -53,7 +53,7 @@ def command(source: Path, target: Path, output: Path, as_json: bool, **options: 
     with progress_bar("match") as progress:
         answer = match(*meshes, landmarks=known, progress=progress, **matching_arguments(options))
     seconds = time.process_time() - started
-    for line in answer.meta.get("parameters", {}).get("landmarks", {}).get("notes", ()):
+    for line in answer.meta.get("notes", ()):
         note(f"gmds: {line}")
     answer.save(output)
     emit({"map": str(output), "cpu_seconds": seconds, **described(answer)}, as_json)
