@@ -60,6 +60,8 @@ def outcome(entry: Callable[..., Any], job: dict[str, str]) -> dict[str, Any]:
 
 def plain(answer: Any) -> dict[str, Any]:
     """An answer that JSON can carry."""
+    if answer is None:
+        return {"nothing": True}
     if sp.issparse(answer):
         matrix = answer.tocoo()
         return {"matrix": [matrix.row.tolist(), matrix.col.tolist(), numbers(matrix.data)], "shape": matrix.shape}

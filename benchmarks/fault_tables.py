@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from importlib.metadata import PackageNotFoundError, version
 from typing import NamedTuple
 
 import fault_judge
 from fault_judge import CLASSES
 from markdown import table
 
-PACKAGES = {"pyFM": "pyfmaps", "robust_laplacian": "robust-laplacian"}
+GOOD = ("right", "clear error")
 DOORS = {"V": "arrays (V)", "G": "odd surfaces (G)", "F": "files (F, S)", "S": "files (F, S)"}
 
 
@@ -19,6 +18,7 @@ class Row(NamedTuple):
     """One case at one entry point; `kept` says whether this project did as it promises, None for others."""
 
     library: str
+    version: str
     entry: str
     row: str
     case: str
@@ -32,6 +32,7 @@ class Row(NamedTuple):
 def page(rows: Sequence[Row]) -> str:
     """The whole page."""
     libraries = list(dict.fromkeys(row.library for row in rows))
+    versions = dict.fromkeys(f"{row.library} {row.version}" for row in rows)
     ours = [row for row in rows if row.kept is not None]
     kept = sum(row.kept is True for row in ours)
     lines = ["# Fault table", "", "`python benchmarks/faults.py`; each case and message: [faults.csv](faults.csv).", ""]
@@ -42,7 +43,7 @@ def page(rows: Sequence[Row]) -> str:
         lines += [f"### {door[0].upper()}{door[1:]}", "", *by_entry(chosen)]
     lines += ["## Rules", "", *(fault_judge.__doc__ or "").splitlines()[2:], ""]
     lines += ["Readers are only given formats that they read when the file is sound, and no file that is refused by a"]
-    lines += ["rule of this project alone (`OWN_RULES`). Versions: " + ", ".join(map(_version, libraries)) + ".", ""]
+    lines += ["rule of this project alone (`OWN_RULES`). Versions: " + ", ".join(versions) + ".", ""]
     lines += ["## This project, row by row", "", *row_by_row(ours)]
     return "\n".join(lines)
 
@@ -53,7 +54,10 @@ def summary(rows: Sequence[Row], libraries: Sequence[str]) -> list[str]:
     for kind in CLASSES:
         counts = [sum(row.library == name and row.outcome == kind for row in rows) for name in libraries]
         lines.append([kind, *counts])
-    lines.append(["runs", *(sum(row.library == name for row in rows) for name in libraries)])
+    runs = [sum(row.library == name for row in rows) for name in libraries]
+    good = [sum(row.library == name and row.outcome in GOOD for row in rows) for name in libraries]
+    lines.append(["runs", *runs])
+    lines.append(["right or clear", *(f"{100 * of / all_:.1f} %" for of, all_ in zip(good, runs, strict=True))])
     return table(["", *libraries], lines)
 
 
@@ -75,10 +79,3 @@ def row_by_row(rows: Sequence[Row]) -> list[str]:
         kept = sum(row.kept is True for row in chosen)
         lines.append([name, expected, len(chosen), kept, f"{max(row.seconds for row in chosen):.2f}"])
     return table(["row", "expected", "runs", "kept", "slowest, s"], lines)
-
-
-def _version(library: str) -> str:
-    try:
-        return f"{library} {version(PACKAGES.get(library, library))}"
-    except PackageNotFoundError:
-        return library

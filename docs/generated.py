@@ -10,10 +10,12 @@ from collections.abc import Iterator
 import click
 
 import geodesics.check
-import gmds
+import geodesics.io
+import gmds.notes
 from gmds.cli import main
 
 WIDTH = 100
+NOTES = {"on a mesh": geodesics.check, "on a file": geodesics.io, "on a match": gmds.notes}
 
 
 def every_command() -> str:
@@ -42,15 +44,20 @@ def error_codes() -> Iterator[tuple[str, type[Exception]]]:
 
 
 def every_code() -> str:
-    """A table of the errors, and the notes that `gmds check` makes."""
+    """A table of the errors, and those of the notes."""
     errors = [
         f"| {code} | `{kind.__module__.partition('.')[0]}` | `{kind.__name__}` | {_sentence(kind)} |"
         for code, kind in sorted(error_codes(), key=lambda row: row[0])
     ]
-    notes = [line for line in inspect.getdoc(geodesics.check).splitlines() if line.startswith("|")]
-    head = ["", "## Errors", "", "| code | package | class | when |", "|---|---|---|---|"]
-    return "\n".join([*head, *errors, "", "## Notes of `gmds check`", "", *notes, ""])
+    text = ["", "## Errors", "", "| code | package | class | when |", "|---|---|---|---|", *errors]
+    for title, module in NOTES.items():
+        text += ["", f"## Notes {title}", "", *(line for line in _doc(module).splitlines() if line.startswith("|"))]
+    return "\n".join([*text, ""])
+
+
+def _doc(thing: object) -> str:
+    return inspect.getdoc(thing) or ""
 
 
 def _sentence(kind: type[Exception]) -> str:
-    return " ".join((inspect.getdoc(kind) or "").split("\n\n")[0].split())
+    return " ".join(_doc(kind).split("\n\n")[0].split())

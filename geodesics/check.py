@@ -6,6 +6,7 @@
 | W202 | faces that name a vertex twice |
 | W203 | faces of zero area |
 | W204 | faces oriented against their neighbours, or a closed surface turned inside out |
+| W206 | most of the surface is flat, as planes and cylinders are |
 | W208 | coordinates so far from the origin that edges have lost their precision |
 | W209 | vertices far away from all others |
 | W212 | a part that has no orientation (Moebius strip) |
@@ -26,12 +27,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geodesics._validation import is_flat
-from geodesics.edges import components, corner_fans, degenerate_faces, edges, face_components
+from geodesics.curvature import one_ring_areas, one_ring_curvature
+from geodesics.edges import corner_fans, degenerate_faces, edges
 from geodesics.errors import Note
+from geodesics.invariants import invariants
 from geodesics.mesh import Mesh
 from geodesics.orientation import orientation
-from geodesics.topology import vertex_components
+from geodesics.topology import boundary_vertices, vertex_components
 
+FLAT = 1e-3  # Gaussian curvature times the area of the surface below which it is none
 NAMED = 100  # at most so many indices are listed in a note
 
 # What `gmds repair` needs to be told to mend it ("": nothing); codes that are not here it can not mend.
@@ -129,25 +133,36 @@ def _precision(mesh: Mesh) -> Iterable[Note]:
 
 
 def _topology(mesh: Mesh) -> Iterable[Note]:
-    table, sound = edges(mesh), ~degenerate_faces(mesh)
-    parts = int(vertex_components(mesh).max()) + 1
-    if parts > 1:
+    found = invariants(mesh)
+    if found.components > 1:
         sizes = np.sort(np.bincount(vertex_components(mesh)[vertex_components(mesh) >= 0]))[::-1]
-        yield Note("W216", "warning", f"{parts} components, of {', '.join(map(str, sizes[:5]))} vertices", (), parts)
-    fan_labels, fans = np.unique(corner_fans(mesh)[sound], return_inverse=True)
-    rim = (table.n_faces[table.of_side] == 1)[sound]
-    fans = fans.reshape(-1, 3)
-    start, end = fans[rim], np.roll(fans, -1, axis=1)[rim]
-    loops = len(np.unique(components(start, end, len(fan_labels))[start]))
-    if loops:
-        yield Note("W217", "info", f"{loops} boundary loops with {len(start)} edges", (), loops)
-    euler = len(np.unique(mesh.faces[sound])) - len(table.ends) + int(sound.sum())
-    message = f"Euler characteristic {euler}"
-    if (table.n_faces <= 2).all() and not orientation(mesh).one_sided.any():
-        pieces = len(np.unique(face_components(mesh)[sound]))
-        split = len(fan_labels) - len(table.ends) + int(sound.sum())
-        message += f", genus {(2 * pieces - loops - split) // 2}"
-    yield Note("W218", "info", message)
+        message = f"{found.components} components, of {', '.join(map(str, sizes[:5]))} vertices"
+        yield Note("W216", "warning", message, (), found.components)
+    if found.boundaries:
+        table, sound = edges(mesh), ~degenerate_faces(mesh)
+        count = int((table.n_faces[table.of_side] == 1)[sound].sum())
+        yield Note("W217", "info", f"{found.boundaries} boundary loops with {count} edges", (), found.boundaries)
+    genus = "" if found.genus is None else f", genus {found.genus}"
+    yield Note("W218", "info", f"Euler characteristic {found.euler}{genus}")
 
 
-_CHECKS: list[Callable[[Mesh], Iterable[Note]]] = [_faces, _orientation, _manifold, _vertices, _precision, _topology]
+def _curvature(mesh: Mesh) -> Iterable[Note]:
+    areas, inner = one_ring_areas(mesh), ~boundary_vertices(mesh)
+    flat = np.abs(one_ring_curvature(mesh)) * areas.sum() / 3 < FLAT
+    share = areas[inner & flat].sum() / max(areas[inner].sum(), np.finfo(float).tiny)
+    if share > 0.5:
+        message = (
+            f"{share:.0%} of the area has no Gaussian curvature; the scale-invariant metric is that of space there"
+        )
+        yield Note("W206", "info", message)
+
+
+_CHECKS: list[Callable[[Mesh], Iterable[Note]]] = [
+    _faces,
+    _orientation,
+    _manifold,
+    _vertices,
+    _precision,
+    _topology,
+    _curvature,
+]

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import functools
 import zipfile
 import zlib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import combinations
 from pathlib import Path
@@ -129,16 +130,25 @@ def _embedded(here: Path, there: Path) -> float:
     return morphometry.embedding_distortion(_views(here), _views(there))
 
 
+def _lines(text: str) -> Iterator[tuple[tuple[str, str, str], float]]:
+    """What the lines say; one that was damaged says nothing."""
+    for line in text.splitlines():
+        with contextlib.suppress(ValueError, csv.Error):
+            one, other, settings, value = next(csv.reader([line]))
+            if np.isfinite(float(value)):
+                yield (one, other, settings), float(value)
+
+
 class _Distortions:
     """Distortions of embeddings that outlive the process: a CSV file, one pair a line."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        text = path.read_text(encoding="utf-8") if path.exists() else ""
+        text = path.read_bytes().decode("utf-8", "replace") if path.exists() else ""
         whole = text[: text.rfind("\n") + 1]  # a line cut short is computed again
         if whole != text:
             path.write_text(whole, encoding="utf-8")
-        self.known = {(a, b, s): float(value) for a, b, s, value in csv.reader(whole.splitlines())}
+        self.known = dict(_lines(whole))
 
     def get(self, one: str, other: str, compute: Callable[[], float]) -> float:
         """The distortion between two meshes, computed unless it is known."""

@@ -15,6 +15,7 @@ from pathlib import Path
 from geodesics.errors import FormatError
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
+from gmds.text_file import read_text
 from gmds.truth_files import (
     BadTruth,
     Indices,
@@ -27,6 +28,10 @@ from gmds.truth_files import (
 
 Truth = tuple[Indices, SurfacePoints, SurfacePoints | None]
 TruthReader = Callable[[Mesh, Mesh], Truth]
+
+
+LARGEST = 1 << 26  # bytes of a listing
+ENTRY = ("name", "source", "target", "truth", "group")  # of a pair in pairs.json
 
 
 class UnknownDataset(FormatError):
@@ -71,12 +76,19 @@ def dataset_pairs(folder: Path, listing: Path | None = None) -> list[Pair]:
 
 def _listed(file: Path, columns: int) -> list[Sequence[str]]:
     """The names on each line of a listing, separated by blanks or commas."""
-    rows = [re.split(r"[\s,;]+", line.strip()) for line in file.read_text(encoding="utf-8").splitlines()]
+    rows = [re.split(r"[\s,;]+", line.strip()) for line in _text(file).splitlines()]
     rows = [row for row in rows if row != [""] and not row[0].startswith("#")]
     for number, row in enumerate(rows, start=1):
         if len(row) != columns:
             raise UnknownDataset(f"{file}, entry {number}: {' '.join(row)!r} should be {columns} names")
     return list(rows)
+
+
+def _text(file: Path) -> str:
+    try:
+        return read_text(file, UnknownDataset, LARGEST)
+    except UnicodeDecodeError as error:
+        raise UnknownDataset(f"{file} is not UTF-8 text ({error})") from error
 
 
 def _vts_pair(folder: Path, source: str, target: str) -> Pair:
@@ -94,10 +106,15 @@ def _vts_pair(folder: Path, source: str, target: str) -> Pair:
 
 
 def _scaled_pairs(folder: Path, listing: Path | None) -> list[Pair]:
+    file = folder / "pairs.json"
     try:
-        entries = {entry["name"]: entry for entry in json.loads((folder / "pairs.json").read_text(encoding="utf-8"))}
-    except (json.JSONDecodeError, TypeError, KeyError) as error:
-        raise UnknownDataset(f"{folder / 'pairs.json'} is not a list of pairs ({error})") from error
+        listed = [{"group": "", **entry} for entry in json.loads(_text(file))]
+        entries = {entry["name"]: {key: entry[key] for key in ENTRY} for entry in listed}
+    except (json.JSONDecodeError, TypeError, KeyError, RecursionError) as error:
+        raise UnknownDataset(f"{file} is not a list of pairs, each with {', '.join(ENTRY)} ({error!r})") from error
+    for name, entry in entries.items():
+        if not all(isinstance(value, str) for value in entry.values()):
+            raise UnknownDataset(f"{file}, pair {name!r}: {', '.join(ENTRY)} must be text")
     names = [row[0] for row in _listed(listing, 1)] if listing else list(entries)
     unknown = [name for name in names if name not in entries]
     if unknown:
@@ -110,7 +127,7 @@ def _scaled_pair(root: Path, entry: dict[str, str]) -> Pair:
         from_, to, flipped = read_truth_npz(root / entry["truth"])
         return from_, SurfacePoints.at_vertices(target_mesh, to), points_at(target_mesh, flipped)
 
-    return Pair(entry["name"], root / entry["source"], root / entry["target"], truth, entry.get("group", ""))
+    return Pair(entry["name"], root / entry["source"], root / entry["target"], truth, entry["group"])
 
 
 def _shrec_pair(folder: Path, group: str, source: str, target: str) -> Pair:

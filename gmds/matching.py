@@ -20,6 +20,7 @@ from gmds.describing import described
 from gmds.initialization.landmarks import landmarks as from_landmarks
 from gmds.landmarks import place_landmarks
 from gmds.losses import LeastSquares, Loss
+from gmds.notes import match_notes
 from gmds.pair import SurfacePair
 from gmds.proposals import Start, distinct, proposals
 from gmds.surface import Surface, measure, view_of
@@ -100,9 +101,13 @@ def match(  # noqa: PLR0913 - the signature is a promise
     }
     found = answer(placed, {"parameters": settings})
     found = found if carrier is None else carrier.carried(found)
-    found = found if given is None else given.applied(found)
+    notes = match_notes(found.source, found.target, found.status)
+    if given is not None:
+        found, missed = given.applied(found)
+        notes += [*given.notes, *missed]
     report("done", 1.0)
-    return replace(found, meta={**found.meta, "seconds": round(time.perf_counter() - started, 3)})
+    seconds = round(time.perf_counter() - started, 3)
+    return replace(found, meta={**found.meta, "notes": [str(note) for note in notes], "seconds": seconds})
 
 
 def _embedded(

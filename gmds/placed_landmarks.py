@@ -37,12 +37,12 @@ class PlacedLandmarks:
         points = {
             name: {"face": side.face.tolist(), "barycentric": side.barycentric.tolist()} for name, side in sides.items()
         }
-        return {**points, "tolerance": self.tolerance.tolist(), "notes": [str(note) for note in self.notes]}
+        return {**points, "tolerance": self.tolerance.tolist()}
 
-    def applied(self, found: Correspondence) -> Correspondence:
+    def applied(self, found: Correspondence) -> tuple[Correspondence, list[Note]]:
         """The map with vertices that are hard landmarks sent exactly where they belong; what is inside a face stays.
 
-        Its parameters tell of the landmarks, and of the soft ones that it misses by far (W302).
+        Its parameters tell of the landmarks. The notes name soft ones that the map misses by far (W302).
         """
         hard = np.flatnonzero((self.tolerance <= 0) & (self.on_source.barycentric.max(axis=1) >= 1 - 1e-9))
         place = np.zeros(len(found.points), dtype=np.int64)
@@ -50,9 +50,8 @@ class PlacedLandmarks:
         rows = self.on_source[hard].nearest_vertices()
         place[rows], known[rows] = hard, True
         points = mixed(known, self.on_target[place], found.points)
-        told = replace(self, notes=(*self.notes, *self._doubts(found))).described()
-        meta = {**found.meta, "parameters": {**found.meta.get("parameters", {}), "landmarks": told}}
-        return replace(found, points=points, valid=found.valid | known, meta=meta)
+        meta = {**found.meta, "parameters": {**found.meta.get("parameters", {}), "landmarks": self.described()}}
+        return replace(found, points=points, valid=found.valid | known, meta=meta), self._doubts(found)
 
     def _doubts(self, found: Correspondence) -> list[Note]:
         sent = self.on_source.interpolate(found.points.positions)

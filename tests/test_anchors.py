@@ -150,9 +150,9 @@ def test_a_wrong_soft_landmark_does_less_harm_than_a_hard_one() -> None:
 
 
 def test_a_soft_landmark_that_is_given_up_is_named() -> None:
-    (note,) = matched("wrong", 0.05).meta["parameters"]["landmarks"]["notes"]
+    (note,) = matched("wrong", 0.05).meta["notes"]
     assert note.startswith("W302: 1 soft landmarks") and "number 4, by 0." in note
-    assert matched("right", 0.05).meta["parameters"]["landmarks"]["notes"] == []
+    assert matched("right", 0.05).meta["notes"] == []
 
 
 def test_landmarks_count_with_a_distance_of_ones_own_as_well() -> None:

@@ -120,3 +120,21 @@ def test_completion_prints_a_script_for_each_shell(shell: str) -> None:
     if shell == "bash" and "not supported" in result.output:
         pytest.skip("an old bash")
     assert result.exit_code == 0 and f"_GMDS_COMPLETE={shell}_complete" in result.stdout
+
+
+@pytest.mark.parametrize(
+    ("args", "message"),
+    [
+        (["match", "a.off", "b.off", "-o", "none/map.npz"], "there is no folder 'none' for 'map.npz'"),
+        (["match", "a.off", "b.off", "-o", "map.csv"], "'map.csv' must end in .npz"),
+        (["match", "a.off", "b.off", "-o", "."], "is a directory"),
+        (["match", "a.off", "b.off", "--report", "none/page.html"], "there is no folder 'none' for 'page.html'"),
+        (["match", "a.off", "b.off", "--picture", "none/map.png"], "there is no folder 'none' for 'map.png'"),
+        (["symmetry", "a.off", "-o", "map.mat"], "'map.mat' must end in .npz"),
+        (["repair", "a.off", "-o", "none/b.off"], "there is no folder 'none' for 'b.off'"),
+        (["landmarks", "a.off", "a.csv", "b.off", "-o", "none/b.csv"], "there is no folder 'none' for 'b.csv'"),
+    ],
+)
+def test_what_can_not_be_written_is_said_before_the_work(args: list[str], message: str) -> None:
+    result = CliRunner().invoke(main, args)  # none of these meshes exists, and no one has looked
+    assert result.exit_code == 2 and message in " ".join(result.stderr.split())

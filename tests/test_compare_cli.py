@@ -105,6 +105,16 @@ def test_what_was_cut_short_or_changed_is_computed_again(folder: Path, done: tup
     assert float(rows[3][names.index("ring1")]) > 0.01  # no longer congruent to ring0
 
 
+def test_damaged_lines_of_what_is_kept_say_nothing(folder: Path, done: tuple[Path, dict], tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    shutil.copytree(done[0], out)
+    kept = out / "kept" / "distortions.csv"
+    first, _, rest = kept.read_bytes().partition(b"\n")
+    kept.write_bytes(b"\xff\0,a\n" + first[:-3] + b"x\n" + b",,,nan\n" + rest)
+    assert run(folder, "-o", out, "--embed", 1).exit_code == 0
+    assert (out / "matrix.csv").read_bytes() == (done[0] / "matrix.csv").read_bytes()
+
+
 def test_a_bad_mesh_is_named_and_left_out(folder: Path, tmp_path: Path) -> None:
     for name in ("blob0.ply", "ring0.off"):
         shutil.copy(folder / name, tmp_path / name)

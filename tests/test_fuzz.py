@@ -13,9 +13,12 @@ import pytest
 SCRIPTS = str(Path(__file__).parent.parent / "benchmarks")
 FILES = 150
 READERS = [
-    "OFF", "OBJ", "PLY, text", "PLY, binary", "STL, text", "STL, binary", "GLB", "TOSCA", "map", "measured surface",
-    "landmarks, .csv", "landmarks, .mrk.json", "landmarks, .fcsv", "landmarks, .tps", "landmarks, .pts",
-    "landmarks, .vts", "landmark pairs", "pair list", "values", "truth, .vts", "truth, .npz",
+    "OFF", "OBJ", "PLY, text", "PLY, binary", "STL, text", "STL, binary", "GLB", "TOSCA", "measured surface",
+    "colours, .obj", "colours, .ply", "colours, .glb", "texture", "map", "map, meta inside", "map, face inside",
+    "map, barycentric inside", "map, valid inside", "map, distortion inside", "landmarks of a map", "settings of a map",
+    "map, kept by a batch", "landmarks, .csv", "landmarks, .mrk.json", "landmarks, .fcsv", "landmarks, .tps",
+    "landmarks, .pts", "landmarks, .vts", "landmark pairs", "pair list", "settings", "values, .csv", "values, .txt",
+    "values, .npy", "truth, .vts", "truth, .npz", "pairs of a benchmark", "pairs.json",
 ]  # fmt: skip
 
 
@@ -35,8 +38,8 @@ def test_every_reader_is_fuzzed(fuzz: Any) -> None:
 def test_damaged_files_are_refused_or_read_rightly(fuzz: Any, name: str, tmp_path: Path) -> None:
     target = fuzz.TARGETS[name]
     for content in target.sound():
-        fuzz.beside(target, tmp_path)
-        (tmp_path / target.name).write_bytes(content)
+        fuzz.lay_beside(target, tmp_path)
+        (tmp_path / target.name).write_bytes(target.packed(content))
         if name not in ("map", "TOSCA"):  # some of theirs are only there to be mixed with the others
             assert fuzz.outcome(target, tmp_path / target.name) == "answered"
     found = fuzz.run(name, 1, range(FILES), tmp_path)

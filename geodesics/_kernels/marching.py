@@ -140,7 +140,9 @@ def _cross(ends: Pair, slopes: Pair, weights: Pair, length: float, x: float, y: 
         tilt += m0 * (1.0 - t) * (1.0 - 3.0 * t) + m1 * t * (3.0 * t - 2.0)
         plain = ys * ys / (r0 * r0 * r0) + w * y * y / (r1 * r1 * r1)
         bend = max(plain + (m0 * (6.0 * t - 4.0) + m1 * (6.0 * t - 2.0)) / length, 0.2 * plain)
-        at = min(max(at - tilt / bend, 0.0), length)
+        at -= tilt / bend
+        if not 0.0 < at < length:  # round an end of the edge, which is as long as along the other edge from there
+            return math.inf, 0.0
     t, w = at / length, w0 + (w1 - w0) * at / length
     r0, r1 = math.sqrt((at - xs) * (at - xs) + ys * ys), math.sqrt((at - x) * (at - x) + y * y)
     return r0 + w * r1 + length * t * (1.0 - t) * (m0 * (1.0 - t) - m1 * t), at
@@ -257,29 +259,38 @@ def march(corners: Corners, front: Front, until: Until) -> None:
             limit = min(limit, dv + until.margin) if missing == 0 else limit
         if dv > nearest[v] + state[v, 5]:
             continue
-        for q in range(start[v], start[v + 1]):
-            for side in range(2):
-                a, c = ends[q, side], ends[q, 1 - side]
-                place = position[c]
-                edge = 0.5 * (state[v, 4] + state[c, 4]) * shape[q, 1 - side]
-                if place == ACCEPTED and state[c, 0] <= dv and _behind(shape, q, side, edge, dv - state[v, 2]):
-                    continue
-                new, direction, offset = dv + edge, ALONG, state[v, 2]
-                if position[a] == ACCEPTED:
-                    other, turned, source = _through(table, state, slowness[q], q, side, v, a, c)
-                    if other < new:
-                        new, direction, offset = other, _modulo(turned, state[c, 3]), source
-                gain = state[c, 0] - new
-                if not gain > 0.0 or (place == ACCEPTED and (visits[c] >= VISITS or gain < 1e-7 * edge)):
-                    continue
-                state[c, 0], state[c, 1], state[c, 2] = new, direction, offset
-                if place == UNSEEN:
-                    touched[reached] = c
-                    reached += 1
-                if place < 0:
-                    place = size
-                    size += 1
-                _rise(heap, keys, position, place, c, new)
+        late = False
+        for anew in range(2):  # what was accepted before is lowered last, so that the order of faces does not matter
+            if anew and not late:
+                break
+            for q in range(start[v], start[v + 1]):
+                for side in range(2):
+                    a, c = ends[q, side], ends[q, 1 - side]
+                    place = position[c]
+                    edge = 0.5 * (state[v, 4] + state[c, 4]) * shape[q, 1 - side]
+                    if place == ACCEPTED and state[c, 0] <= dv and _behind(shape, q, side, edge, dv - state[v, 2]):
+                        continue
+                    if anew and visits[c] == 0:
+                        continue
+                    if place == ACCEPTED and not anew:
+                        late = True
+                        continue
+                    new, direction, offset = dv + edge, ALONG, state[v, 2]
+                    if position[a] == ACCEPTED:
+                        other, turned, source = _through(table, state, slowness[q], q, side, v, a, c)
+                        if other < new:
+                            new, direction, offset = other, _modulo(turned, state[c, 3]), source
+                    gain = state[c, 0] - new
+                    if not gain > 0.0 or (place == ACCEPTED and (visits[c] >= VISITS or gain < 1e-7 * edge)):
+                        continue
+                    state[c, 0], state[c, 1], state[c, 2] = new, direction, offset
+                    if place == UNSEEN:
+                        touched[reached] = c
+                        reached += 1
+                    if place < 0:
+                        place = size
+                        size += 1
+                    _rise(heap, keys, position, place, c, new)
     sizes[0], sizes[1] = size, reached
 
 

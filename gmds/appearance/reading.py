@@ -85,9 +85,10 @@ def _image(path: Path) -> Any:
         from PIL import Image
     except ImportError as error:
         raise MissingExtra("textures need Pillow; install it with: pip install 'gmds[viz]'") from error
+    data = read_bytes(path)
     try:
-        image = Image.open(io.BytesIO(read_bytes(path)))
+        image = Image.open(io.BytesIO(data))
         image.load()
-    except (Image.DecompressionBombError, ValueError, SyntaxError, Image.UnidentifiedImageError) as error:
-        raise BadLook(f"{path} is no image that can be read ({error})") from error
+    except Exception as error:  # of a dozen decoders, each with its own
+        raise BadLook(f"{path} is no image that can be read ({type(error).__name__}: {error})") from error
     return image

@@ -10,6 +10,7 @@ import click
 from gmds.cli.group import UNFINISHED
 from gmds.cli.matching_options import matching_arguments, matching_options
 from gmds.cli.output import json_option, note, progress_bar
+from gmds.cli.paths import OutputFile
 from gmds.cli.settings import ConfiguredCommand
 
 
@@ -17,7 +18,7 @@ from gmds.cli.settings import ConfiguredCommand
 @click.argument("dataset_dir", type=click.Path(path_type=Path))
 @click.option("--pairs", type=click.Path(path_type=Path), help="The pairs to run, instead of the published ones.")
 @click.option("--every", default=1, show_default=True, type=click.IntRange(min=1), help="Run every N-th pair only.")
-@click.option("-o", "--output", type=click.Path(path_type=Path), help="Write the rows as CSV.")
+@click.option("-o", "--output", type=OutputFile(), help="Write the rows as CSV.")
 @matching_options
 @json_option
 def command(

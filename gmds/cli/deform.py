@@ -13,13 +13,17 @@ from gmds.cli.output import emit, json_option, seed_option
 if TYPE_CHECKING:
     from gmds.deformations import Deformation
 
+from gmds.cli.paths import OutputFile
+
 FILE = click.Path(path_type=Path)
 
 
 @click.command(cls=Command, short_help="Deform a mesh and keep the truth.")
 @click.argument("mesh", type=FILE)
 @click.argument("kinds", metavar="KIND...", nargs=-1, required=True)
-@click.option("-o", "--output", required=True, type=FILE, help="Where the new mesh goes; the ending says the format.")
+@click.option(
+    "-o", "--output", required=True, type=OutputFile(), help="Where the new mesh goes; the ending says the format."
+)
 @click.option("--strength", default=3, show_default=True, type=click.IntRange(1, 5), help="Of kinds without their own.")
 @click.option(
     "--remesh", type=click.IntRange(min=12), metavar="N", help="Triangulate anew in the end, about N vertices."

@@ -8,6 +8,7 @@ import click
 
 from gmds.cli.group import Command
 from gmds.cli.output import emit, json_option
+from gmds.cli.paths import OutputFile
 
 FILE = click.Path(path_type=Path)
 
@@ -16,7 +17,7 @@ FILE = click.Path(path_type=Path)
 @click.argument("map_file", metavar="MAP", type=FILE)
 @click.option("--source", required=True, type=FILE, help="Mesh the map starts on.")
 @click.option("--target", required=True, type=FILE, help="Mesh the map ends on.")
-@click.option("-o", "--output", required=True, type=FILE, help="A file that ends in .csv or .mat.")
+@click.option("-o", "--output", required=True, type=OutputFile(), help="A file that ends in .csv or .mat.")
 @json_option
 def command(map_file: Path, source: Path, target: Path, output: Path, as_json: bool) -> None:
     """Write the map in MAP for other programs.

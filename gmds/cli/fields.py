@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,27 +10,13 @@ import click
 
 from gmds.cli.choices import DISTANCES, METRICS
 from gmds.cli.output import cell, tell_written
+from gmds.cli.paths import EndingIn
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
     from geodesics import Mesh
-
-
-class EndingIn(click.Path):
-    """A path whose ending says the format, refused before anything is computed when the ending is another."""
-
-    def __init__(self, *endings: str) -> None:
-        super().__init__(path_type=Path)
-        self.endings = endings
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """The path; a usage error that names it when its ending is none of the endings."""
-        path = Path(os.fsdecode(super().convert(value, param, ctx)))
-        if path.suffix.lower() not in self.endings:
-            self.fail(f"{str(path)!r} must end in {' or '.join(self.endings)}", param, ctx)
-        return path
 
 
 FILE = click.Path(path_type=Path)

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from gmds import Correspondence
     from gmds.landmark_transfer import CarriedLandmarks
 
+from gmds.cli.paths import OutputFile
+
 FILE = click.Path(path_type=Path)
 
 
@@ -23,7 +25,7 @@ FILE = click.Path(path_type=Path)
 @click.argument("source", type=FILE)
 @click.argument("landmarks", type=FILE)
 @click.argument("target", type=FILE)
-@click.option("-o", "--output", required=True, type=FILE, help="Where the landmarks of TARGET go; see above.")
+@click.option("-o", "--output", required=True, type=OutputFile(), help="Where the landmarks of TARGET go; see above.")
 @click.option("--map", "map_file", type=FILE, help="A map from SOURCE to TARGET; without it they are matched.")
 @space_option
 @seed_option

@@ -12,6 +12,8 @@ from gmds.describing import in_words
 from gmds.errors import BadSetting
 from gmds.map_file import read_meta
 
+NEEDED = {"n_samples", "orientation", "rng", "loss", "distance"}  # what every match tells of its parameters
+
 
 def map_settings(path: Path) -> dict[str, dict[str, Any]]:
     """Settings by table; what the map was made by is told where it is another version.
@@ -22,9 +24,10 @@ def map_settings(path: Path) -> dict[str, dict[str, Any]]:
     from gmds import __version__
 
     meta = read_meta(path)
-    made, version = meta.get("parameters"), meta.get("versions", {}).get("gmds")
-    if not isinstance(made, dict) or "n_samples" not in made:
+    made, versions = meta.get("parameters"), meta.get("versions")
+    if not isinstance(made, dict) or not made.keys() >= NEEDED:
         raise BadSetting(f"{path} was not made by matching and holds no settings")
+    version = versions.get("gmds") if isinstance(versions, dict) else None
     if version != __version__:
         note(f"{path} was made by gmds {version}; this is {__version__}, and the map may become another")
     matching = {"samples": made["n_samples"], "orientation": made["orientation"], "seed": made["rng"]}
@@ -35,9 +38,9 @@ def map_settings(path: Path) -> dict[str, dict[str, Any]]:
     return {"matching": matching, "match": {"landmarks": [str(path)]} if "landmarks" in made else {}}
 
 
-def _named(path: Path, what: str, words: str, known: Iterable[tuple[Any, Any]]) -> Any:
+def _named(path: Path, what: str, words: object, known: Iterable[tuple[Any, Any]]) -> Any:
     """The name of the thing that these words describe."""
     for name, thing in known:
         if in_words(thing) == words:
             return name
-    raise BadSetting(f"{path} was made with the {what} {words:.200}, which has no name on the command line")
+    raise BadSetting(f"{path} was made with the {what} {words!s:.200}, which has no name on the command line")

@@ -10,16 +10,18 @@ import click
 from gmds.cli.landmark_options import given_landmarks, space_option, tolerance_option
 from gmds.cli.matching_options import matching_arguments, matching_options
 from gmds.cli.output import emit, json_option, note, progress_bar
+from gmds.cli.paths import EndingIn
 from gmds.cli.settings import ConfiguredCommand
 from gmds.cli.views import view_options, write_views
 
 FILE = click.Path(path_type=Path)
+MAP = EndingIn(".npz", "")
 
 
 @click.command("match", cls=ConfiguredCommand, short_help="Match two meshes and write the map.")
 @click.argument("source", type=FILE)
 @click.argument("target", type=FILE)
-@click.option("-o", "--output", default="map.npz", show_default=True, type=FILE, help="Where the map goes.")
+@click.option("-o", "--output", default="map.npz", show_default=True, type=MAP, help="Where the map goes.")
 @view_options
 @click.option("--landmarks", type=FILE, multiple=True, help="Known points; given once or twice, see above.")
 @space_option
@@ -51,7 +53,7 @@ def command(source: Path, target: Path, output: Path, as_json: bool, **options: 
     with progress_bar("match") as progress:
         answer = match(*meshes, landmarks=known, progress=progress, **matching_arguments(options))
     seconds = time.process_time() - started
-    for line in answer.meta.get("parameters", {}).get("landmarks", {}).get("notes", ()):
+    for line in answer.meta.get("notes", ()):
         note(f"gmds: {line}")
     answer.save(output)
     emit({"map": str(output), "cpu_seconds": seconds, **described(answer)}, as_json)

@@ -13,12 +13,16 @@ from gmds.cli.output import emit, json_option
 if TYPE_CHECKING:
     from geodesics.repair import Repaired
 
+from gmds.cli.paths import OutputFile
+
 FILE = click.Path(path_type=Path)
 
 
 @click.command(cls=Command, short_help="Write a better version of a mesh.")
 @click.argument("mesh", type=FILE)
-@click.option("-o", "--output", required=True, type=FILE, help="Where the new mesh goes; the ending says the format.")
+@click.option(
+    "-o", "--output", required=True, type=OutputFile(), help="Where the new mesh goes; the ending says the format."
+)
 @click.option("--maps", type=FILE, help="Write a .npz with the old index of every new vertex and face, and back.")
 @click.option("--weld", is_flag=True, help="Join vertices at exactly equal positions.")
 @click.option(

@@ -9,6 +9,7 @@ import click
 
 from gmds.cli.group import BAD_INPUT, UNFINISHED, Command
 from gmds.cli.output import cell, emit, json_option, note, progress_bar, seed_option
+from gmds.cli.paths import OutputFile
 
 if TYPE_CHECKING:
     from gmds.retrieval import Described
@@ -20,7 +21,7 @@ COLUMNS = ("rank", "mesh", "distance")
 @click.command(cls=Command, short_help="Rank the meshes of a folder by likeness.")
 @click.argument("query", type=click.Path(path_type=Path))
 @click.argument("folder", metavar="DIR", type=click.Path(path_type=Path, exists=True, file_okay=False))
-@click.option("-o", "--output", type=click.Path(path_type=Path), help="Write the ranking as CSV.")
+@click.option("-o", "--output", type=OutputFile(), help="Write the ranking as CSV.")
 @click.option("--words", default=48, show_default=True, type=click.IntRange(min=1), help="Size of the vocabulary.")
 @seed_option
 @json_option

@@ -57,11 +57,7 @@ def read_settings(path: Path) -> Tables:
     """
     from gmds._validation import check_keys
 
-    if path.suffix.lower() == ".npz":
-        from gmds.cli.map_settings import map_settings
-
-        return map_settings(path)
-    content = _parsed(path)
+    content = _of_map(path) if path.suffix.lower() == ".npz" else _parsed(path)
     check_keys(content, TABLES, f"{path}")
     known = {name: dict(_params_of(name)) for name in TABLES}
     for table, values in content.items():
@@ -71,6 +67,12 @@ def read_settings(path: Path) -> Tables:
         for key, value in values.items():
             _check(path, f"{table}.{key}", known[table][key], value)
     return content
+
+
+def _of_map(path: Path) -> Tables:
+    from gmds.cli.map_settings import map_settings
+
+    return map_settings(path)
 
 
 def _parsed(path: Path) -> Tables:

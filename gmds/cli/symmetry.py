@@ -9,14 +9,16 @@ import click
 
 from gmds.cli.group import Command
 from gmds.cli.output import emit, json_option, note, progress_bar
+from gmds.cli.paths import EndingIn
 from gmds.cli.views import view_options, write_views
 
 FILE = click.Path(path_type=Path)
+MAP = EndingIn(".npz", "")
 
 
 @click.command(cls=Command, short_help="Find the symmetries of a mesh, whatever its pose.")
 @click.argument("mesh", type=FILE)
-@click.option("-o", "--output", default="map.npz", show_default=True, type=FILE, help="Where the best map goes.")
+@click.option("-o", "--output", default="map.npz", show_default=True, type=MAP, help="Where the best map goes.")
 @view_options
 @click.option(
     "--vertices", type=click.IntRange(min=100), default=5000, show_default=True, help="Work on a copy with no more."

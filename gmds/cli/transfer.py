@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from gmds.cli.fields import FILE, EndingIn, draw, picture_option, write_field
+from gmds.cli.fields import FILE, draw, picture_option, write_field
 from gmds.cli.group import Command
 from gmds.cli.output import emit, json_option, note
+from gmds.cli.paths import EndingIn
 
 if TYPE_CHECKING:
     import numpy as np

@@ -8,14 +8,15 @@ from typing import Any
 
 import click
 
-from gmds.cli.fields import PICTURES, EndingIn
+from gmds.cli.fields import PICTURES
 from gmds.cli.output import note, tell_written
+from gmds.cli.paths import EndingIn, OutputFile
 
 FILE = click.Path(path_type=Path)
 Y_UP = (".obj", ".glb", ".gltf")  # where the format, or the custom, has y pointing up
 UP = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 
-report_option = click.option("--report", type=FILE, help="Write a page to turn both surfaces in a browser.")
+report_option = click.option("--report", type=OutputFile(), help="Write a page to turn both surfaces in a browser.")
 picture_option = click.option(
     "--picture", type=EndingIn(*PICTURES), help="Draw both surfaces: .png, .jpg, .svg or .pdf."
 )
