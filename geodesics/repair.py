@@ -133,19 +133,26 @@ def remesh(mesh: Mesh, target_vertices: int, *, iterations: int = 10) -> Mesh:
     unit = (mesh.vertices - center) / size
     a, b, c = unit[mesh.faces.T]
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
-    length = np.sqrt(area / target_vertices * 2 / np.sqrt(3))  # a vertex of the equilateral tiling owns sqrt(3)/2 l^2
-    v, f = unit, mesh.faces
-    for _ in range(4):  # edges come out somewhat longer or shorter than asked: correct the length and start again
-        v, f = apply_filter(
-            "meshing_isotropic_explicit_remeshing",
-            unit,
-            mesh.faces,
-            targetlen=float(length),
-            iterations=iterations,
-        )
-        if abs(len(v) / target_vertices - 1) < 0.05:
+    best, miss = (unit, mesh.faces), np.inf
+    for near in (True, False):  # that it stays near the surface can keep the mesh finer than asked: then without
+        length = np.sqrt(area / target_vertices * 2 / np.sqrt(3))  # an equilateral tiling has sqrt(3)/2 l^2 a vertex
+        for _ in range(4):  # edges come out somewhat longer or shorter than asked: correct the length and start again
+            v, f = apply_filter(
+                "meshing_isotropic_explicit_remeshing",
+                unit,
+                mesh.faces,
+                targetlen=float(length),
+                iterations=iterations,
+                checksurfdist=near,
+            )
+            if abs(np.log(len(v) / target_vertices)) < miss:
+                best, miss = (v, f), abs(np.log(len(v) / target_vertices))
+            if miss < 0.05:
+                break
+            length *= np.sqrt(len(v) / target_vertices)
+        if miss < 0.2:
             break
-        length *= np.sqrt(len(v) / target_vertices)
+    v, f = best
     return repair(Mesh(v * size + center, f)).mesh
 
 
