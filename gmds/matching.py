@@ -101,7 +101,7 @@ def match(  # noqa: PLR0913 - the signature is a promise
     }
     found = answer(placed, {"parameters": settings})
     found = found if carrier is None else carrier.carried(found)
-    notes = match_notes(found.source, found.target, found.status)
+    notes = match_notes(measured.original, facing.original, found.status)
     if given is not None:
         found, missed = given.applied(found)
         notes += [*given.notes, *missed]
