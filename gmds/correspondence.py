@@ -52,7 +52,7 @@ class Correspondence:
     `points`: n SurfacePoints on the target. `valid` (n,) bool: False where the vertex has no counterpart; the point
     of such a row is finite and means nothing. `distortion` (n,) float64 >= 0: how badly distances from the vertex are
     preserved, over the mean distance; small is trustworthy. `candidates`: other maps, best first. `meta`: parameters,
-    seed, versions and timings, as JSON can carry them.
+    seed, notes (`gmds.notes`), versions and timings, as JSON can carry them.
 
     Raises `MapError` when a row is missing, lies on another mesh than `target`, or its distortion is not finite.
     """

@@ -94,11 +94,8 @@ class SampledPair:
 
     def refined(self, images: Index, sizes: Sequence[int] = COARSE) -> Index:
         """A sample map refined with ever more eigenfunctions, as many as some of `COARSE` say."""
-        steps = [i for i, k in enumerate(self._sizes) if k in sizes]
-        if not steps:
-            return images
-        numbers = np.array([self._sizes[i] for i in steps], dtype=np.int64)
-        return refined(images, numbers, self._inverses[steps], *self._rows)
+        steps = np.array([(i, k) for i, k in enumerate(self._sizes) if k in sizes], dtype=np.int64)
+        return refined(images, steps, self._inverses, *self._rows) if len(steps) else images
 
     def all_refined(self, maps: Sequence[Index], sizes: Sequence[int] = COARSE) -> list[Index]:
         """Sample maps, each refined."""

@@ -17,7 +17,7 @@ _FORMS = 10  # d phi_i ^ d phi_j, 1 <= i < j <= 5
 @njit
 def refined(
     images: Index,
-    sizes: Index,
+    steps: Index,
     inverses: Array,
     ours: Single,
     theirs: Array,
@@ -25,17 +25,16 @@ def refined(
     others: Array,
     scale: Array,
 ) -> Index:
-    """The images (p,) of samples among q, refined with as many eigenfunctions as `sizes` (s,) say, one after another.
+    """The images (p,) of samples among q, refined with ever more eigenfunctions: `steps` (s, 2) of (i, k).
 
-    `inverses` (s, K, p): the pseudo-inverses of the source's functions, in the first rows of each; `theirs` (q, K):
-    eigenfunctions of the target; the others as in `placed`.
+    `inverses[i, :k]` (k, p) is the pseudo-inverse of the first k functions of the source; the others as in `placed`.
     """
-    for step in range(len(sizes)):
-        k = sizes[step]
+    for step in range(len(steps)):
+        i, k = steps[step]
         sent = np.empty((len(images), k))
-        for i in range(len(images)):
-            sent[i] = theirs[images[i], :k]
-        images = placed(np.dot(inverses[step, :k], sent), ours, theirs, forms, others, scale)
+        for j in range(len(images)):
+            sent[j] = theirs[images[j], :k]
+        images = placed(np.dot(inverses[i, :k], sent), ours, theirs, forms, others, scale)
     return images
 
 
