@@ -11,11 +11,11 @@ import click
 
 import geodesics.check
 import geodesics.io
-import gmds.notes
+import gmds.matching.notes
 from gmds.cli import main
 
 WIDTH = 100
-NOTES = {"on a mesh": geodesics.check, "on a file": geodesics.io, "on a match": gmds.notes}
+NOTES = {"on a mesh": geodesics.check, "on a file": geodesics.io, "on a match": gmds.matching.notes}
 
 
 def every_command() -> str:

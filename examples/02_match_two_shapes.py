@@ -2,8 +2,8 @@
 
 import gmds
 from gmds.evaluation import protocol_subset
-from gmds.pictures import write_picture
-from gmds.report import write_report
+from gmds.pictures.panels import write_picture
+from gmds.report.page import write_report
 from gmds.shapes import demo_pair
 
 source, target, truth = demo_pair()

@@ -8,6 +8,8 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
+from geodesics.moved_paths import MOVED, keep_old_paths
+
 if TYPE_CHECKING:
     from geodesics.curvature import angle_defect as angle_defect
     from geodesics.curvature import gaussian_curvature as gaussian_curvature
@@ -22,7 +24,7 @@ if TYPE_CHECKING:
     from geodesics.errors import FormatError as FormatError
     from geodesics.errors import MeshError as MeshError
     from geodesics.errors import Note as Note
-    from geodesics.fast_marching import GeodesicDistance as GeodesicDistance
+    from geodesics.fast_marching.distance import GeodesicDistance as GeodesicDistance
     from geodesics.io import read_mesh as read_mesh
     from geodesics.io import read_with_notes as read_with_notes
     from geodesics.io import write_mesh as write_mesh
@@ -38,7 +40,6 @@ if TYPE_CHECKING:
     from geodesics.metrics.equi_affine import equi_affine as equi_affine
     from geodesics.metrics.min_curvature import min_curvature as min_curvature
     from geodesics.metrics.scale_invariant import scale_invariant as scale_invariant
-    from geodesics.orientation import orient_faces as orient_faces
     from geodesics.points import SurfacePoints as SurfacePoints
     from geodesics.sampling import farthest_point_sampling as farthest_point_sampling
     from geodesics.sampling import voronoi_cells as voronoi_cells
@@ -49,27 +50,58 @@ if TYPE_CHECKING:
     from geodesics.signatures import wave_kernel_signature as wave_kernel_signature
     from geodesics.spectrum import Spectrum as Spectrum
     from geodesics.spectrum import eigenpairs as eigenpairs
+    from geodesics.topology.orientation import orient_faces as orient_faces
 
 # every public name, by the module it lives in
 _NAMES = {
-    "curvature": ("angle_defect", "gaussian_curvature", "mean_curvature", "principal_curvatures", "vertex_normals"),
+    "curvature": (
+        "angle_defect",
+        "gaussian_curvature",
+        "mean_curvature",
+        "principal_curvatures",
+        "vertex_normals",
+    ),
     "delaunay": ("intrinsic_delaunay",),
-    "diffusion": ("BiharmonicDistance", "CommuteTimeDistance", "DiffusionDistance"),
+    "diffusion": (
+        "BiharmonicDistance",
+        "CommuteTimeDistance",
+        "DiffusionDistance",
+    ),
     "distance": ("Distance",),
-    "errors": ("FormatError", "MeshError", "Note"),
-    "fast_marching": ("GeodesicDistance",),
-    "io": ("read_mesh", "read_with_notes", "write_mesh"),
-    "laplacian": ("galerkin_mass", "lumped_mass", "stiffness"),
-    "mesh": ("Mesh", "triangulate"),
-    "metric": ("Metric", "conformal"),
+    "errors": (
+        "FormatError",
+        "MeshError",
+        "Note",
+    ),
+    "fast_marching.distance": ("GeodesicDistance",),
+    "io": (
+        "read_mesh",
+        "read_with_notes",
+        "write_mesh",
+    ),
+    "laplacian": (
+        "galerkin_mass",
+        "lumped_mass",
+        "stiffness",
+    ),
+    "mesh": (
+        "Mesh",
+        "triangulate",
+    ),
+    "metric": (
+        "Metric",
+        "conformal",
+    ),
     "metrics.affine": ("affine",),
     "metrics.embedded": ("embedded",),
     "metrics.equi_affine": ("equi_affine",),
     "metrics.min_curvature": ("min_curvature",),
     "metrics.scale_invariant": ("scale_invariant",),
-    "orientation": ("orient_faces",),
     "points": ("SurfacePoints",),
-    "sampling": ("farthest_point_sampling", "voronoi_cells"),
+    "sampling": (
+        "farthest_point_sampling",
+        "voronoi_cells",
+    ),
     "signatures": (
         "heat_kernel",
         "heat_kernel_signature",
@@ -77,12 +109,18 @@ _NAMES = {
         "scaled_heat_kernel_signature",
         "wave_kernel_signature",
     ),
-    "spectrum": ("Spectrum", "eigenpairs"),
+    "spectrum": (
+        "Spectrum",
+        "eigenpairs",
+    ),
+    "topology.orientation": ("orient_faces",),
 }
 _SUBMODULES = ("check", "intrinsic", "metrics", "repair", "topology", "tracing")
 _HOME = {name: module for module, names in _NAMES.items() for name in names}
 
 __all__ = sorted(_HOME)
+
+keep_old_paths(MOVED)
 
 
 def __getattr__(name: str) -> Any:

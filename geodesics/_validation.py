@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from geodesics.arrays import Bools, Floats, Integers
 from geodesics.errors import (
     BadDtype,
     BadShape,
@@ -25,7 +26,7 @@ from geodesics.errors import (
 SMALLEST_EXTENT, LARGEST_EXTENT = 1e-75, 1e75
 
 
-def as_vertices(vertices: ArrayLike | None) -> NDArray[np.float64]:
+def as_vertices(vertices: ArrayLike | None) -> Floats:
     """A fresh C-ordered float64 copy (n, 3).
 
     Raises `MeshError`: E103 empty, E107 dtype, E108 shape, E101 not finite, E102 too large or too small for float64.
@@ -47,7 +48,7 @@ def as_vertices(vertices: ArrayLike | None) -> NDArray[np.float64]:
     return v
 
 
-def as_faces(faces: ArrayLike | None, n_vertices: int) -> NDArray[np.int64]:
+def as_faces(faces: ArrayLike | None, n_vertices: int) -> Integers:
     """A fresh C-ordered int64 copy (m, 3) whose every index is in 0 .. n_vertices - 1.
 
     Raises `MeshError`: E104 none, E107 dtype, E108 shape, E109 quads, E106 not whole, E105 out of range (checked
@@ -64,7 +65,7 @@ def as_faces(faces: ArrayLike | None, n_vertices: int) -> NDArray[np.int64]:
     return np.array(raw, dtype=np.int64, order="C")
 
 
-def as_indices(indices: ArrayLike, bound: int, row: str, things: str) -> NDArray[np.int64]:
+def as_indices(indices: ArrayLike, bound: int, row: str, things: str) -> Integers:
     """A fresh int64 copy of whole numbers in 0 .. bound - 1; `row` and `things` name them in errors (E105-E107)."""
     raw = np.atleast_1d(as_array(indices, f"{row} indices"))
     outside = f"{row} {{}} = {{}} refers outside the {bound} {things}; indices count from 0"
@@ -82,7 +83,7 @@ def as_indices(indices: ArrayLike, bound: int, row: str, things: str) -> NDArray
     return np.array(raw, dtype=np.int64, order="C")
 
 
-def as_weights(weights: ArrayLike, n_points: int) -> NDArray[np.float64]:
+def as_weights(weights: ArrayLike, n_points: int) -> Floats:
     """Barycentric weights (p, 3) as a fresh float64 copy, rounding errors removed: >= 0 and summing to 1.
 
     Raises `MeshError`: E107 dtype, E108 shape, E115 not finite, below -1e-6 or a sum further than 1e-6 from 1.
@@ -126,7 +127,7 @@ def as_array(values: Any, name: str) -> NDArray[Any]:
     return array
 
 
-def check_area(v: NDArray[np.float64], f: NDArray[np.int64]) -> None:
+def check_area(v: Floats, f: Integers) -> None:
     """`ZeroArea` when no face has an area."""
     if is_flat(v, f).all():
         raise ZeroArea(
@@ -134,7 +135,7 @@ def check_area(v: NDArray[np.float64], f: NDArray[np.int64]) -> None:
         )
 
 
-def is_flat(v: NDArray[np.float64], f: NDArray[np.int64]) -> NDArray[np.bool_]:
+def is_flat(v: Floats, f: Integers) -> Bools:
     """Faces whose area is no more than rounding of the coordinates alone would give, shape (m,)."""
     a, b, c = v[f.T]
     double_area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
@@ -142,7 +143,7 @@ def is_flat(v: NDArray[np.float64], f: NDArray[np.int64]) -> NDArray[np.bool_]:
     return np.asarray(double_area <= 4 * np.finfo(float).eps * np.abs(v[f]).max(axis=(1, 2)) * longest)
 
 
-def _check_range(v: NDArray[np.float64]) -> None:
+def _check_range(v: Floats) -> None:
     """`CoordinateRange` naming the farthest vertex when the extent leaves what float64 can square twice."""
     size = np.abs(v - v[0] if np.abs(v).max() < LARGEST_EXTENT else v).max(axis=1)
     extent, farthest = size.max(), int(size.argmax())
@@ -153,7 +154,7 @@ def _check_range(v: NDArray[np.float64]) -> None:
         )
 
 
-def _refuse_rows(bad: NDArray[np.bool_], raw: NDArray[Any], error: type[Exception], message: str) -> None:
+def _refuse_rows(bad: Bools, raw: NDArray[Any], error: type[Exception], message: str) -> None:
     """Raise `error` for the first row of `raw` with a bad entry; `message` takes the row's number and content."""
     if np.any(bad):
         row = int(np.argmax(np.asarray(bad, dtype=bool).reshape(len(raw), -1).any(axis=1)))

@@ -24,16 +24,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geodesics._validation import is_flat
-from geodesics.curvature import one_ring_areas, one_ring_curvature
-from geodesics.edges import corner_fans, degenerate_faces, edges
+from geodesics.arrays import Bools
 from geodesics.errors import Note
-from geodesics.invariants import invariants
 from geodesics.mesh import Mesh
-from geodesics.orientation import orientation
-from geodesics.topology import boundary_vertices, vertex_components
+from geodesics.one_ring import one_ring_areas, one_ring_curvature
+from geodesics.topology.components import boundary_vertices, vertex_components
+from geodesics.topology.edges import corner_fans, degenerate_faces, edges
+from geodesics.topology.invariants import invariants
+from geodesics.topology.orientation import orientation
 
 FLAT = 1e-3  # Gaussian curvature times the area of the surface below which it is none
 NAMED = 100  # at most so many indices are listed in a note
@@ -55,7 +55,7 @@ def check(mesh: Mesh) -> list[Note]:
     return sorted(notes, key=lambda note: note.severity != "warning")
 
 
-def _warn(code: str, mask: NDArray[np.bool_], sentence: str) -> list[Note]:
+def _warn(code: str, mask: Bools, sentence: str) -> list[Note]:
     """A warning listing where `mask` holds, if anywhere; `sentence` has one place for the count."""
     where = np.flatnonzero(mask)
     if not len(where):
@@ -63,7 +63,7 @@ def _warn(code: str, mask: NDArray[np.bool_], sentence: str) -> list[Note]:
     return [Note(code, "warning", sentence.format(len(where)), tuple(where[:NAMED].tolist()), len(where))]
 
 
-def repeated_faces(mesh: Mesh) -> NDArray[np.bool_]:
+def repeated_faces(mesh: Mesh) -> Bools:
     """Faces of the same three vertices, in any order, as an earlier face, shape (m,)."""
     _, first = np.unique(np.sort(mesh.faces, axis=1), axis=0, return_index=True)
     repeated = np.ones(mesh.n_faces, dtype=bool)
@@ -71,12 +71,12 @@ def repeated_faces(mesh: Mesh) -> NDArray[np.bool_]:
     return repeated
 
 
-def flat_faces(mesh: Mesh) -> NDArray[np.bool_]:
+def flat_faces(mesh: Mesh) -> Bools:
     """Faces of three different vertices whose area is no more than rounding of the coordinates, shape (m,)."""
     return np.asarray(is_flat(mesh.vertices, mesh.faces) & ~degenerate_faces(mesh))
 
 
-def unreferenced_vertices(mesh: Mesh) -> NDArray[np.bool_]:
+def unreferenced_vertices(mesh: Mesh) -> Bools:
     """Vertices on no face, shape (n,)."""
     unused = np.ones(mesh.n_vertices, dtype=bool)
     unused[mesh.faces] = False

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Faces = NDArray[np.int64]
+from geodesics.arrays import Floats, Integers
 
 
-def closest_on_triangles(queries: Array, vertices: Array, faces: Faces) -> tuple[Faces, Array, Array]:
+def closest_on_triangles(queries: Floats, vertices: Floats, faces: Integers) -> tuple[Integers, Floats, Floats]:
     """For each query (p, 3) the nearest triangle (p,), the weights of its nearest point (p, 3), the distance (p,)."""
     import igl
 
@@ -21,7 +19,7 @@ def closest_on_triangles(queries: Array, vertices: Array, faces: Faces) -> tuple
     return face, weights, gap
 
 
-def closest_weights(queries: Array, triangles: Array) -> Array:
+def closest_weights(queries: Floats, triangles: Floats) -> Floats:
     """Weights (p, 3) of the point of triangle i (p, 3, 3) nearest to query i (p, 3); flat triangles are fine."""
     options = [_on_edge(queries, triangles, k) for k in range(3)]
     a, ab, ac = triangles[:, 0], triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
@@ -39,7 +37,7 @@ def closest_weights(queries: Array, triangles: Array) -> Array:
     return weights[distance.argmin(axis=0), np.arange(len(queries))]
 
 
-def _on_edge(queries: Array, triangles: Array, k: int) -> Array:
+def _on_edge(queries: Floats, triangles: Floats, k: int) -> Floats:
     """Weights of the point nearest to each query on the edge from corner k to corner k + 1."""
     start, edge = triangles[:, k], triangles[:, (k + 1) % 3] - triangles[:, k]
     length_sq = (edge * edge).sum(1)

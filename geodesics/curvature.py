@@ -4,25 +4,26 @@ from __future__ import annotations
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 
 from geodesics import intrinsic
-from geodesics._memo import memoized
-from geodesics._sparse import factorised
-from geodesics.delaunay import IntrinsicTriangulation, intrinsic_delaunay, proper_faces
-from geodesics.laplacian import cotangent_matrix, vertex_areas, vertex_sums
+from geodesics.arrays import Bools, Floats
+from geodesics.caching import memoized
+from geodesics.delaunay import IntrinsicTriangulation, intrinsic_delaunay
+from geodesics.intrinsic import vertex_areas, vertex_sums
+from geodesics.laplacian import cotangent_matrix
+from geodesics.linalg.factors import factorised
 from geodesics.mesh import Mesh
-from geodesics.orientation import orient_faces
-from geodesics.topology import boundary_vertices
+from geodesics.moved_paths import names_moved
+from geodesics.topology.components import boundary_vertices
+from geodesics.topology.edges import proper_faces
+from geodesics.topology.orientation import orient_faces
 
-Array = NDArray[np.float64]
-
-# chosen on half of the shapes of benchmarks/curvature_stability.py
+# chosen on half of the shapes of benchmarks/stability/curvature_stability.py
 SMOOTHING = 4e-3
 COARSE = 3e-3  # of the area of the surface
 
 
-def angle_defect(mesh: Mesh) -> Array:
+def angle_defect(mesh: Mesh) -> Floats:
     """2 pi (pi on the boundary) minus the angles around each vertex, shape (n,), radians; 0 where there is no face.
 
     The numerator of |K_i| below (4.5). Over a closed surface it sums to 2 pi times the Euler characteristic.
@@ -34,23 +35,7 @@ def angle_defect(mesh: Mesh) -> Array:
     return flat - vertex_sums(faces, theta, mesh.n_vertices)
 
 
-def one_ring_areas(mesh: Mesh) -> Array:
-    """A_ii of (4.5): the area of all faces that contain the vertex, shape (n,), units of length^2."""
-    faces = mesh.faces[proper_faces(mesh.faces)]
-    return vertex_sums(faces, intrinsic.areas(intrinsic.squared_lengths(mesh.vertices, faces)), mesh.n_vertices)
-
-
-def one_ring_curvature(mesh: Mesh) -> Array:
-    """K_i = 3 (2 pi - sum of angles) / A_ii below (4.5), to the letter and signed, shape (n,), units of 1 / length^2.
-
-    Dominated by the noise of the mesh: prefer `gaussian_curvature`. 0 on the boundary and at vertices without area.
-    """
-    defect = np.where(boundary_vertices(mesh), 0.0, angle_defect(mesh))
-    area = one_ring_areas(mesh)
-    return np.divide(3 * defect, area, out=np.zeros_like(area), where=area > 0)
-
-
-def gaussian_curvature(mesh: Mesh, smoothing: float = SMOOTHING) -> Array:
+def gaussian_curvature(mesh: Mesh, smoothing: float = SMOOTHING) -> Floats:
     """Gaussian curvature K (n,) in units of 1 / length^2: the angle defect, smoothed so that remeshing keeps it.
 
     One implicit heat step (A + div(tau grad)) K = defect whose time tau at each place is `smoothing` times the area of
@@ -65,7 +50,7 @@ def gaussian_curvature(mesh: Mesh, smoothing: float = SMOOTHING) -> Array:
     return smoothed_density(triangulation, defect, interior, time)
 
 
-def mean_curvature(mesh: Mesh, smoothing: float = SMOOTHING) -> Array:
+def mean_curvature(mesh: Mesh, smoothing: float = SMOOTHING) -> Floats:
     """Mean curvature H (n,) in units of 1 / length, positive where a closed surface is convex.
 
     2 H n is the Laplacian of position (W x = 2 A H n), n the normals of `vertex_normals`; smoothed as
@@ -79,7 +64,7 @@ def mean_curvature(mesh: Mesh, smoothing: float = SMOOTHING) -> Array:
     return smoothed_density(triangulation, bend, interior, time)
 
 
-def principal_curvatures(mesh: Mesh, smoothing: float = SMOOTHING) -> tuple[Array, Array]:
+def principal_curvatures(mesh: Mesh, smoothing: float = SMOOTHING) -> tuple[Floats, Floats]:
     """Principal curvatures k1 >= k2, each (n,) in units of 1 / length: H +- sqrt(H^2 - K), the root cut off at 0."""
     h = mean_curvature(mesh, smoothing)
     root = np.sqrt(np.maximum(h**2 - gaussian_curvature(mesh, smoothing), 0))
@@ -87,7 +72,7 @@ def principal_curvatures(mesh: Mesh, smoothing: float = SMOOTHING) -> tuple[Arra
 
 
 @memoized
-def vertex_normals(mesh: Mesh) -> Array:
+def vertex_normals(mesh: Mesh) -> Floats:
     """Unit normals (n, 3), the normals of the faces around each vertex weighted by angle; 0 where there are none.
 
     Faces are oriented consistently first, outward where the surface is closed (`orient_faces`).
@@ -101,9 +86,7 @@ def vertex_normals(mesh: Mesh) -> Array:
     return total / np.where(size > 0, size, 1)
 
 
-def curvature_time(
-    triangulation: IntrinsicTriangulation, defect: Array, interior: NDArray[np.bool_], smoothing: float
-) -> Array:
+def curvature_time(triangulation: IntrinsicTriangulation, defect: Floats, interior: Bools, smoothing: float) -> Floats:
     """`smoothing` times the area 4 pi / |K| of the sphere of the same curvature, per face (m,).
 
     That curvature is a coarse look at K. At most `smoothing` times the area of the surface, where it is flat.
@@ -114,18 +97,19 @@ def curvature_time(
     return smoothing * 4 * np.pi / curvature
 
 
-def smoothed_density(
-    triangulation: IntrinsicTriangulation, amounts: Array, interior: NDArray[np.bool_], time: Array
-) -> Array:
+def smoothed_density(triangulation: IntrinsicTriangulation, amounts: Floats, interior: Bools, time: Floats) -> Floats:
     """Density (n,) of amounts per vertex (n,) after one implicit heat step of time (m,) per face, in units of area.
 
     Where `interior` is False nothing was measured, and the value comes from the neighbours alone.
     """
     n = len(amounts)
-    area = vertex_areas(triangulation, n)
+    area = vertex_areas(*triangulation, n)
     used = np.flatnonzero(area > 0)
     weight = np.where(interior, area, 1e-9 * area)[used]  # a little, or a part that is all boundary is singular
     diffusion = cotangent_matrix(triangulation, n, time)[used][:, used]
     density = np.zeros(n)
     density[used] = factorised(sp.diags(weight) + diffusion).solve(amounts[used])
     return density
+
+
+__getattr__ = names_moved(__name__, ("geodesics.one_ring",))

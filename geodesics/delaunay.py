@@ -5,15 +5,14 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geodesics._kernels import flips
-from geodesics._memo import memoized
+from geodesics.arrays import Floats, Integers
+from geodesics.caching import memoized
 from geodesics.intrinsic import squared_lengths
 from geodesics.mesh import Mesh
-
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
+from geodesics.moved_paths import names_moved
+from geodesics.topology.edges import proper_faces
 
 
 class IntrinsicTriangulation(NamedTuple):
@@ -71,15 +70,6 @@ def glued_faces(mesh: Mesh) -> GluedTriangulation:
     return glued(faces, mollified(np.sqrt(squared_lengths(mesh.vertices, faces))), origin, mesh.n_vertices)
 
 
-def proper_faces(faces: Integers) -> Integers:
-    """Rows of faces (m, 3) with three different vertices, each oriented triple once; ascending."""
-    a, b, c = faces.T
-    proper = np.flatnonzero((a != b) & (b != c) & (c != a))
-    first = faces[proper].argmin(axis=1)
-    turned = faces[proper[:, None], (first[:, None] + np.arange(3)) % 3]
-    return proper[np.sort(np.unique(turned, axis=0, return_index=True)[1])]
-
-
 def mollified(lengths: Floats, relative: float = 1e-9) -> Floats:
     """Lengths (m, 3) plus the least constant that makes all triangle inequalities hold with a margin."""
     if len(lengths) == 0:
@@ -120,3 +110,6 @@ def twins(faces: Integers) -> Integers:
 def wrapped(direction: Floats, whole: Floats) -> Floats:
     """Directions taken modulo the whole angle of their vertex, where that is finite."""
     return np.where(np.isfinite(whole), np.mod(direction, np.where(np.isfinite(whole), whole, 1.0)), direction)
+
+
+__getattr__ = names_moved(__name__, ("geodesics.topology.edges",))

@@ -6,18 +6,17 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geodesics._kernels.spreading import closer_rows
+from geodesics.arrays import Floats, Integers
 from geodesics.distance import FEWER_POINTS
 from geodesics.euclidean import euclidean_distances
 from geodesics.memory import table
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
 from geodesics.spectrum import Spectrum
-from geodesics.topology import vertex_components
+from geodesics.topology.components import vertex_components
 
-Array = NDArray[np.float64]
 _BLOCK = 256  # rows of a field made at a time: keeps temporaries small, whatever the number of points
 
 
@@ -27,10 +26,10 @@ class _SpectralDistance:
 
     mesh: Mesh
     spectrum: Spectrum
-    embedding: Array
+    embedding: Floats
     _linked: bool  # False: points of different components are infinitely far apart
 
-    def _set(self, spectrum: Spectrum, embedding: Array, linked: bool) -> None:
+    def _set(self, spectrum: Spectrum, embedding: Floats, linked: bool) -> None:
         embedding = np.ascontiguousarray(embedding)
         embedding.setflags(write=False)
         object.__setattr__(self, "mesh", spectrum.mesh)
@@ -38,7 +37,7 @@ class _SpectralDistance:
         object.__setattr__(self, "embedding", embedding)
         object.__setattr__(self, "_linked", linked)
 
-    def field(self, points: SurfacePoints) -> Array:
+    def field(self, points: SurfacePoints) -> Floats:
         """Distances (p, n) from each point to every vertex; +inf at vertices that can not be reached.
 
         Raises `WouldExceedMemory` (E501) when the table does not fit.
@@ -54,11 +53,11 @@ class _SpectralDistance:
             result[label[self.mesh.faces[points.face, 0]][:, None] != label] = np.inf
         return result
 
-    def spreader(self) -> Callable[[int, Array], tuple[NDArray[np.int64], Array]]:
+    def spreader(self) -> Callable[[int, Floats], tuple[Integers, Floats]]:
         """A function (vertex, nearest (n,)) -> the vertices closer to this one than `nearest`, and their distances."""
         rows, label, linked = self.embedding, vertex_components(self.mesh), self._linked
 
-        def closer(vertex: int, nearest: Array) -> tuple[NDArray[np.int64], Array]:
+        def closer(vertex: int, nearest: Floats) -> tuple[Integers, Floats]:
             return closer_rows(rows, label, linked, vertex, nearest)
 
         return closer
@@ -101,7 +100,7 @@ class BiharmonicDistance(_SpectralDistance):
         self._set(spectrum, functions / values, linked=False)
 
 
-def _positive_part(spectrum: Spectrum) -> tuple[Array, Array]:
+def _positive_part(spectrum: Spectrum) -> tuple[Floats, Floats]:
     """Eigenpairs without the constants of the components, which carry no distance."""
     components = int(vertex_components(spectrum.mesh).max()) + 1
     null = spectrum.eigenvalues * spectrum.mass.sum() < 1e-6

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
+from geodesics.arrays import Floats
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
 
@@ -20,5 +18,5 @@ class Distance(Protocol):
     def mesh(self) -> Mesh:
         """The mesh, of n vertices."""
 
-    def field(self, points: SurfacePoints) -> NDArray[np.float64]:
+    def field(self, points: SurfacePoints) -> Floats:
         """Distances (p, n) from each of p points to every vertex, in the unit of the metric; +inf where unreachable."""

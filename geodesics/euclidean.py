@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from geodesics.arrays import Floats
 
 
-def euclidean_distances(rows: Array, others: Array) -> Array:
+def euclidean_distances(rows: Floats, others: Floats) -> Floats:
     """|x_i - y_j| for all rows x (p, k) and y (q, k): (p, q), by one matrix product; exact where that would cancel."""
     size = np.einsum("ik,ik->i", rows, rows)[:, None] + np.einsum("ik,ik->i", others, others)
     squared = size - 2 * (rows @ others.T)

@@ -7,15 +7,15 @@ import os
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from geodesics.arrays import Floats
 from geodesics.errors import WouldExceedMemory
 
 WORTH_ASKING = 100_000_000  # bytes: less is taken without looking
 SHARE = 0.9  # of the free memory that one table may have
 
 
-def table(rows: int, columns: int, what: str, instead: str) -> NDArray[np.float64]:
+def table(rows: int, columns: int, what: str, instead: str) -> Floats:
     """An empty table (rows, columns) of float64. Raises `WouldExceedMemory` (E501) when it does not fit."""
     needed = 8 * rows * columns
     if needed > WORTH_ASKING and needed > (free := SHARE * available()):

@@ -6,11 +6,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from geodesics import intrinsic
 from geodesics._duck import arrays_of
 from geodesics._validation import as_faces, as_indices, as_vertices, check_area
+from geodesics.arrays import Floats, Integers
 from geodesics.errors import BadShape
 
 
@@ -22,8 +23,8 @@ class Mesh:
     or Open3D. Coordinates may have any unit. Raises `MeshError` naming the first offending vertex or face.
     """
 
-    vertices: NDArray[np.float64]
-    faces: NDArray[np.int64]
+    vertices: Floats
+    faces: Integers
 
     def __init__(self, vertices: ArrayLike | Any, faces: ArrayLike | None = None) -> None:
         if faces is None and (found := arrays_of(vertices)) is not None:
@@ -81,7 +82,7 @@ class Mesh:
         return float(intrinsic.areas(intrinsic.squared_lengths(self.vertices, self.faces)).sum())
 
 
-def triangulate(faces: ArrayLike) -> NDArray[np.int64]:
+def triangulate(faces: ArrayLike) -> Integers:
     """Polygons (m, k) split about their first corner into triangles (m (k - 2), 3), in order; no vertex is added.
 
     Raises `MeshError` when the array is not (m, k) with k >= 3 or does not hold whole numbers from 0.

@@ -4,15 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from geodesics import intrinsic
+from geodesics.arrays import Floats
 from geodesics.delaunay import intrinsic_delaunay
-from geodesics.laplacian import vertex_areas
+from geodesics.intrinsic import vertex_areas
 from geodesics.mesh import Mesh
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,13 +21,13 @@ class Metric:
     """
 
     mesh: Mesh
-    l_sq: Array
-    mass: Array
-    conformal_factor: Array | None = None
+    l_sq: Floats
+    mass: Floats
+    conformal_factor: Floats | None = None
 
 
-def conformal(mesh: Mesh, factor: Array) -> Metric:
+def conformal(mesh: Mesh, factor: Floats) -> Metric:
     """The metric rho * g for a positive factor rho (n,) per vertex; g is the embedded metric."""
     l_sq = intrinsic.conformal_lengths(intrinsic.squared_lengths(mesh.vertices, mesh.faces), mesh.faces, factor)
-    mass = factor * vertex_areas(intrinsic_delaunay(mesh), mesh.n_vertices)
+    mass = factor * vertex_areas(*intrinsic_delaunay(mesh), mesh.n_vertices)
     return Metric(mesh, l_sq, mass, factor)

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from geodesics._memo import memoized
 from geodesics._validation import as_indices, as_vertices, as_weights
+from geodesics.arrays import Bools, Floats, Integers
+from geodesics.caching import memoized
 from geodesics.closest import closest_on_triangles
 from geodesics.errors import BadShape, IndexOutOfRange
 from geodesics.mesh import Mesh
@@ -24,8 +25,8 @@ class SurfacePoints:
     """
 
     mesh: Mesh
-    face: NDArray[np.int64]
-    barycentric: NDArray[np.float64]
+    face: Integers
+    barycentric: Floats
 
     def __init__(self, mesh: Mesh, face: ArrayLike, barycentric: ArrayLike) -> None:
         mesh = Mesh.from_object(mesh)
@@ -77,11 +78,11 @@ class SurfacePoints:
         return f"SurfacePoints({len(self)} on {self.mesh!r})"
 
     @property
-    def positions(self) -> NDArray[np.float64]:
+    def positions(self) -> Floats:
         """Positions in space, shape (p, 3)."""
         return self.interpolate(self.mesh.vertices)
 
-    def interpolate(self, values: ArrayLike) -> NDArray[np.float64]:
+    def interpolate(self, values: ArrayLike) -> Floats:
         """Per-vertex values (n,) or (n, c), linearly interpolated at the points: (p,) or (p, c)."""
         values = np.asarray(values)
         if values.ndim == 0 or len(values) != self.mesh.n_vertices:
@@ -89,14 +90,26 @@ class SurfacePoints:
         corners = values[self.mesh.faces[self.face]]
         return np.einsum("pk,pk...->p...", self.barycentric, corners)
 
-    def nearest_vertices(self) -> NDArray[np.int64]:
+    def nearest_vertices(self) -> Integers:
         """The corner with the largest weight, shape (p,)."""
         return self.mesh.faces[self.face, self.barycentric.argmax(axis=1)]
 
 
 @memoized
-def _corner_of_vertex(mesh: Mesh) -> NDArray[np.int64]:
+def _corner_of_vertex(mesh: Mesh) -> Integers:
     """For each vertex one corner index 3 * face + slot, -1 where it is on no face."""
     corner = np.full(mesh.n_vertices, -1, dtype=np.int64)
     corner[mesh.faces.ravel()[::-1]] = np.arange(3 * mesh.n_faces - 1, -1, -1)
     return corner
+
+
+def mixed(choice: Bools, points: SurfacePoints, others: SurfacePoints) -> SurfacePoints:
+    """Of two sets of points (p,) on one mesh, those of the first where `choice` (p,) is True, else of the second."""
+    face = np.where(choice, points.face, others.face)
+    return SurfacePoints(points.mesh, face, np.where(choice[:, None], points.barycentric, others.barycentric))
+
+
+def joined(points: SurfacePoints, others: SurfacePoints) -> SurfacePoints:
+    """Both sets of points on one mesh, one after the other."""
+    face = np.concatenate([points.face, others.face])
+    return SurfacePoints(points.mesh, face, np.concatenate([points.barycentric, others.barycentric]))

@@ -6,16 +6,14 @@ from collections.abc import Callable
 from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from geodesics._memo import memoized
+from geodesics.arrays import Bools, Floats, Integers
+from geodesics.caching import memoized
 from geodesics.distance import Distance
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
-from geodesics.topology import vertex_components
-
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
+from geodesics.topology.components import vertex_components
 
 Closer = Callable[[int, Floats], tuple[Integers, Floats]]
 FEW = 4  # components of fewer vertices get no sample of their own
@@ -93,7 +91,7 @@ def _spreader(distance: Distance) -> Closer:
 
 
 @memoized
-def _eligible(mesh: Mesh) -> NDArray[np.bool_]:
+def _eligible(mesh: Mesh) -> Bools:
     """Vertices on faces (n,), without components of fewer than `FEW` vertices unless there are only such."""
     label = vertex_components(mesh)
     used = label >= 0
@@ -101,7 +99,7 @@ def _eligible(mesh: Mesh) -> NDArray[np.bool_]:
     return large if large.any() else used
 
 
-def _outermost(mesh: Mesh, eligible: NDArray[np.bool_]) -> int:
+def _outermost(mesh: Mesh, eligible: Bools) -> int:
     """The eligible vertex farthest from the centroid of all of them."""
     offset = mesh.vertices - mesh.vertices[eligible].mean(axis=0)
     return int(np.where(eligible, (offset**2).sum(axis=1), -1.0).argmax())

@@ -7,16 +7,15 @@ depends on the unit of length more than its formula says.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from geodesics.arrays import Floats
 from geodesics.memory import table
 from geodesics.points import SurfacePoints
 from geodesics.spectrum import Spectrum
 
-Array = NDArray[np.float64]
 
-
-def heat_kernel(spectrum: Spectrum, time: float, points: SurfacePoints) -> Array:
+def heat_kernel(spectrum: Spectrum, time: float, points: SurfacePoints) -> Floats:
     """Heat kernel h_t(s, s') = sum_i exp(-lambda_i t) phi_i(s) phi_i(s') (sec. 3), from points to vertices: (p, n).
 
     `time` >= 0 in units of the surface area; values in units of 1 / area. Raises `WouldExceedMemory` (E501) when the
@@ -27,7 +26,7 @@ def heat_kernel(spectrum: Spectrum, time: float, points: SurfacePoints) -> Array
     return np.matmul(points.interpolate(spectrum.eigenfunctions) * fade, spectrum.eigenfunctions.T, out=result)
 
 
-def heat_kernel_signature(spectrum: Spectrum, times: ArrayLike) -> Array:
+def heat_kernel_signature(spectrum: Spectrum, times: ArrayLike) -> Floats:
     """HKS(s, t) = h_t(s, s) = sum_i exp(-lambda_i t) phi_i(s)^2 (5.1) at every vertex: (n, number of times).
 
     `times` >= 0 in units of the surface area; values in units of 1 / area.
@@ -35,7 +34,7 @@ def heat_kernel_signature(spectrum: Spectrum, times: ArrayLike) -> Array:
     return spectrum.eigenfunctions**2 @ _fading(spectrum, times)
 
 
-def scaled_heat_kernel_signature(spectrum: Spectrum, times: ArrayLike) -> Array:
+def scaled_heat_kernel_signature(spectrum: Spectrum, times: ArrayLike) -> Floats:
     """HKS(s, t) / integral over S of HKS(s, t) da(s), as plotted in Fig. 5 (sec. 5): (n, number of times)."""
     signature = heat_kernel_signature(spectrum, times)
     return signature / (spectrum.mass @ signature)
@@ -43,7 +42,7 @@ def scaled_heat_kernel_signature(spectrum: Spectrum, times: ArrayLike) -> Array:
 
 def scale_invariant_heat_kernel_signature(
     spectrum: Spectrum, times: ArrayLike | None = None, n_frequencies: int = 6
-) -> Array:
+) -> Floats:
     """SI-HKS(s, xi) = |F d/d eta log HKS(s, eta)|, eta = log t (footnote 1): (n, n_frequencies), no unit.
 
     `times` must grow by a constant factor; by default 64 times over the range that the spectrum resolves. On the whole
@@ -64,7 +63,7 @@ def scale_invariant_heat_kernel_signature(
     return result
 
 
-def wave_kernel_signature(spectrum: Spectrum, n_energies: int = 100, width: float = 7.0) -> Array:
+def wave_kernel_signature(spectrum: Spectrum, n_energies: int = 100, width: float = 7.0) -> Floats:
     """WKS(s, e) = sum_i phi_i(s)^2 w_i(e) / sum_i w_i(e): (n, n_energies); w_i is a Gaussian around log lambda_i.
 
     Aubry, Schlickewei, Cremers 2011 (beside the signatures of sec. 5). Energies run evenly from log lambda_1 + 2 sigma
@@ -81,7 +80,7 @@ def wave_kernel_signature(spectrum: Spectrum, n_energies: int = 100, width: floa
     return spectrum.eigenfunctions[:, positive] ** 2 @ (weights / weights.sum(axis=0))
 
 
-def resolved_times(spectrum: Spectrum, count: int) -> Array:
+def resolved_times(spectrum: Spectrum, count: int) -> Floats:
     """Times (count,) in units of the area, log-spaced from 4 log 10 / lambda_max to 4 log 10 / lambda_1.
 
     The range of Sun, Ovsjanikov, Guibas 2009: at both ends the faded terms are below 1e-4.
@@ -93,13 +92,13 @@ def resolved_times(spectrum: Spectrum, count: int) -> Array:
     return np.geomspace(4 * np.log(10) / positive[-1], 4 * np.log(10) / positive[0], count)
 
 
-def _times(times: ArrayLike) -> Array:
+def _times(times: ArrayLike) -> Floats:
     t = np.atleast_1d(np.asarray(times, dtype=np.float64))
     if t.ndim != 1 or not np.all(t >= 0) or not np.all(np.isfinite(t)):
         raise ValueError("times must be finite numbers >= 0, in units of the area of the surface")
     return t
 
 
-def _fading(spectrum: Spectrum, times: ArrayLike) -> Array:
+def _fading(spectrum: Spectrum, times: ArrayLike) -> Floats:
     """exp(-lambda_i t), shape (number of eigenpairs, number of times)."""
     return np.exp(-np.outer(spectrum.eigenvalues * spectrum.mass.sum(), _times(times)))

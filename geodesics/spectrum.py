@@ -9,16 +9,15 @@ import numpy as np
 import scipy.linalg
 import scipy.sparse as sp
 import scipy.sparse.linalg as sla
-from numpy.typing import NDArray
 
+from geodesics.arrays import Bools, Floats
 from geodesics.errors import EigensolverFailed
-from geodesics.lanczos import smallest_eigenpairs
 from geodesics.laplacian import lumped_mass, stiffness
+from geodesics.linalg.lanczos import smallest_eigenpairs
 from geodesics.mesh import Mesh
 from geodesics.metric import Metric
 from geodesics.threads import on_one_blas_thread
 
-Array = NDArray[np.float64]
 SHIFT = 0.6
 """Of the Laplacian for each eigenpair, in units of 1 / area: a fortieth of the last eigenvalue by Weyl's law."""
 
@@ -32,9 +31,9 @@ class Spectrum:
     """
 
     mesh: Mesh
-    mass: Array
-    eigenvalues: Array
-    eigenfunctions: Array
+    mass: Floats
+    eigenvalues: Floats
+    eigenfunctions: Floats
 
 
 @on_one_blas_thread
@@ -43,7 +42,7 @@ def eigenpairs(
     count: int,
     *,
     mass: Callable[[Metric], sp.spmatrix] = lumped_mass,
-    fixed: NDArray[np.bool_] | None = None,
+    fixed: Bools | None = None,
     tolerance: float = 1e-8,
 ) -> Spectrum:
     """The `count` smallest eigenpairs of A alpha = lambda B alpha (sec. 4, (4.4)), repeatable from run to run.
@@ -69,7 +68,7 @@ def eigenpairs(
     return Spectrum(metric.mesh, metric.mass, np.maximum(values, 0) / area, functions)
 
 
-def _generalised(a: sp.csr_matrix, b: sp.csr_matrix, count: int, tolerance: float) -> tuple[Array, Array]:
+def _generalised(a: sp.csr_matrix, b: sp.csr_matrix, count: int, tolerance: float) -> tuple[Floats, Floats]:
     """The smallest eigenpairs of A x = lambda B x, ascending, x orthonormal in B."""
     if b.nnz == b.shape[0]:
         root = 1 / np.sqrt(b.diagonal())

@@ -12,9 +12,11 @@ import threading
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, nullcontext
-from typing import Any, Generic, ParamSpec, Self, TypeVar, overload
+from typing import ParamSpec, TypeVar
 
 from threadpoolctl import threadpool_limits
+
+from geodesics.moved_paths import names_moved
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -90,26 +92,4 @@ def _make_busy() -> None:
     _own.busy = True
 
 
-class cached_property(Generic[T]):
-    """`functools.cached_property`, which before Python 3.12 lets one thread in at a time, whatever the object.
-
-    Two threads that ask the same object at once may both compute; either result is kept.
-    """
-
-    def __init__(self, function: Callable[[Any], T]) -> None:
-        self.function = function
-        self.__doc__ = function.__doc__
-
-    def __set_name__(self, owner: type, name: str) -> None:
-        self.name = name
-
-    @overload
-    def __get__(self, instance: None, owner: type) -> Self: ...
-
-    @overload
-    def __get__(self, instance: object, owner: type) -> T: ...
-
-    def __get__(self, instance: object | None, owner: type) -> T | Self:
-        if instance is None:
-            return self
-        return instance.__dict__.setdefault(self.name, self.function(instance))  # type: ignore[no-any-return]
+__getattr__ = names_moved(__name__, ("geodesics.caching",))

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from geodesics import intrinsic
 from geodesics._kernels import tracing as kernel
-from geodesics._memo import memoized
+from geodesics.arrays import Bools, Floats, Integers
+from geodesics.caching import memoized
 from geodesics.delaunay import mollified
 from geodesics.errors import BadShape
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
-
-Array = NDArray[np.float64]
 
 
 def walk(
@@ -36,7 +35,7 @@ def walk(
     return SurfacePoints(mesh, *kernel.walk(points.face, points.barycentric, step, across, layout(mesh), max_crossings))
 
 
-def turned_over(points: SurfacePoints, nearness: float = 1e-9) -> tuple[SurfacePoints, NDArray[np.bool_]]:
+def turned_over(points: SurfacePoints, nearness: float = 1e-9) -> tuple[SurfacePoints, Bools]:
     """The same points, those on an edge now as points of the face across it, and which they are, (p,).
 
     On an edge are points with a weight up to `nearness` and a face across; the weight becomes 0. Points on a vertex
@@ -60,13 +59,13 @@ def turned_over(points: SurfacePoints, nearness: float = 1e-9) -> tuple[SurfaceP
     return SurfacePoints(points.mesh, face, barycentric), turned
 
 
-def gradient(points: SurfacePoints, values: ArrayLike) -> Array:
+def gradient(points: SurfacePoints, values: ArrayLike) -> Floats:
     """Derivative of per-vertex values (n, c), linear on each face, along the axes of the points' frames: (p, c, 2)."""
     corners = np.asarray(values, dtype=np.float64)[points.mesh.faces[points.face]]
     return np.einsum("pkc,pkx->pcx", corners, barycentric_gradient(points))
 
 
-def barycentric_gradient(points: SurfacePoints) -> Array:
+def barycentric_gradient(points: SurfacePoints) -> Floats:
     """Derivative of the three barycentric weights along the axes of each point's frame, shape (p, 3, 2)."""
     c, x, y = layout(points.mesh)[points.face].T
     zero = np.zeros_like(c)
@@ -75,7 +74,7 @@ def barycentric_gradient(points: SurfacePoints) -> Array:
 
 
 @memoized
-def layout(mesh: Mesh) -> Array:
+def layout(mesh: Mesh) -> Floats:
     """Each face in its own plane, (m, 3): corner 0 = (0, 0), corner 1 = (column 0, 0), corner 2 = (columns 1, 2).
 
     Degenerate faces get a little width: all edges are lengthened by one amount, just enough for every triangle
@@ -88,7 +87,7 @@ def layout(mesh: Mesh) -> Array:
 
 
 @memoized
-def neighbours(mesh: Mesh) -> NDArray[np.int64]:
+def neighbours(mesh: Mesh) -> Integers:
     """What lies across each edge of each face, (m, 3), as `geodesics._kernels.tracing.walk` reads it; -1 for nothing.
 
     Edges of more than two faces have nothing across. A repeated face leads where its first copy leads, and a face
@@ -107,7 +106,7 @@ def neighbours(mesh: Mesh) -> NDArray[np.int64]:
     return table
 
 
-def _join(faces: NDArray[np.int64], kept: NDArray[np.int64], table: NDArray[np.int64]) -> None:
+def _join(faces: Integers, kept: Integers, table: Integers) -> None:
     """Fill the table for edges that exactly two of the kept faces share."""
     slot = np.array([[1, 2], [2, 0], [0, 1]])
     ends = faces[kept][:, slot].reshape(-1, 2)
@@ -122,7 +121,7 @@ def _join(faces: NDArray[np.int64], kept: NDArray[np.int64], table: NDArray[np.i
         table[kept[one // 3], one % 3] = 9 * kept[other // 3] + code
 
 
-def _turned(faces: NDArray[np.int64], face: int, original: int, table: NDArray[np.int64]) -> list[int]:
+def _turned(faces: Integers, face: int, original: int, table: Integers) -> list[int]:
     """The original's row of the table, for a copy whose corners may come in another order."""
     row = []
     for k in range(3):

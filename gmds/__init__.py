@@ -8,13 +8,16 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
-__version__ = "0.1.0"
+from geodesics.moved_paths import keep_old_paths
+from gmds._version import __version__ as __version__
+from gmds.moved_paths import MOVED
 
 if TYPE_CHECKING:
     from gmds.batch import match_collection as match_collection
-    from gmds.correspondence import Candidate as Candidate
+    from gmds.comparison.distortion import dissimilarity as dissimilarity
+    from gmds.comparison.profiles import distance_profile as distance_profile
+    from gmds.comparison.profiles import least_distortion as least_distortion
     from gmds.correspondence import Correspondence as Correspondence
-    from gmds.correspondence import MatchStatus as MatchStatus
     from gmds.deformations import bending as bending
     from gmds.deformations import global_scale as global_scale
     from gmds.deformations import local_scaling as local_scaling
@@ -24,48 +27,78 @@ if TYPE_CHECKING:
     from gmds.evaluation import error_curve as error_curve
     from gmds.evaluation import geodesic_error as geodesic_error
     from gmds.evaluation import summary as summary
-    from gmds.landmarks import SoftLandmarks as SoftLandmarks
-    from gmds.losses import Huber as Huber
-    from gmds.losses import LeastSquares as LeastSquares
-    from gmds.losses import Minimax as Minimax
-    from gmds.losses import Power as Power
-    from gmds.matching import match as match
-    from gmds.morphometry import dissimilarity as dissimilarity
-    from gmds.multiresolution import solve_multiresolution as solve_multiresolution
-    from gmds.problem import Problem as Problem
-    from gmds.profiles import distance_profile as distance_profile
-    from gmds.profiles import least_distortion as least_distortion
+    from gmds.landmarks.checking import SoftLandmarks as SoftLandmarks
+    from gmds.maps.point_map import Candidate as Candidate
+    from gmds.maps.point_map import MatchStatus as MatchStatus
+    from gmds.matching.pipeline import match as match
+    from gmds.matching.symmetry import self_symmetry as self_symmetry
+    from gmds.mds.losses import Huber as Huber
+    from gmds.mds.losses import LeastSquares as LeastSquares
+    from gmds.mds.losses import Minimax as Minimax
+    from gmds.mds.losses import Power as Power
+    from gmds.mds.multiresolution import solve_multiresolution as solve_multiresolution
+    from gmds.mds.problem import Problem as Problem
+    from gmds.mds.solver import Solution as Solution
+    from gmds.mds.solver import solve as solve
+    from gmds.mds.status import Status as Status
+    from gmds.mds.tabulated import TabulatedDistance as TabulatedDistance
     from gmds.retrieval import BagOfFeatures as BagOfFeatures
     from gmds.retrieval import retrieve as retrieve
-    from gmds.solver import Solution as Solution
-    from gmds.solver import solve as solve
-    from gmds.status import Status as Status
-    from gmds.symmetry import self_symmetry as self_symmetry
-    from gmds.tabulated import TabulatedDistance as TabulatedDistance
 
 # every public name, by the module it lives in
 _NAMES = {
     "batch": ("match_collection",),
-    "correspondence": ("Candidate", "Correspondence", "MatchStatus"),
-    "deformations": ("bending", "global_scale", "local_scaling", "noise", "remeshing"),
-    "evaluation": ("ErrorSummary", "error_curve", "geodesic_error", "summary"),
-    "landmarks": ("SoftLandmarks",),
-    "losses": ("Huber", "LeastSquares", "Minimax", "Power"),
-    "matching": ("match",),
-    "morphometry": ("dissimilarity",),
-    "multiresolution": ("solve_multiresolution",),
-    "problem": ("Problem",),
-    "profiles": ("distance_profile", "least_distortion"),
-    "retrieval": ("BagOfFeatures", "retrieve"),
-    "solver": ("Solution", "solve"),
-    "status": ("Status",),
-    "symmetry": ("self_symmetry",),
-    "tabulated": ("TabulatedDistance",),
+    "comparison.distortion": ("dissimilarity",),
+    "comparison.profiles": (
+        "distance_profile",
+        "least_distortion",
+    ),
+    "correspondence": ("Correspondence",),
+    "deformations": (
+        "bending",
+        "global_scale",
+        "local_scaling",
+        "noise",
+        "remeshing",
+    ),
+    "evaluation": (
+        "ErrorSummary",
+        "error_curve",
+        "geodesic_error",
+        "summary",
+    ),
+    "landmarks.checking": ("SoftLandmarks",),
+    "maps.point_map": (
+        "Candidate",
+        "MatchStatus",
+    ),
+    "matching.pipeline": ("match",),
+    "matching.symmetry": ("self_symmetry",),
+    "mds.losses": (
+        "Huber",
+        "LeastSquares",
+        "Minimax",
+        "Power",
+    ),
+    "mds.multiresolution": ("solve_multiresolution",),
+    "mds.problem": ("Problem",),
+    "mds.solver": (
+        "Solution",
+        "solve",
+    ),
+    "mds.status": ("Status",),
+    "mds.tabulated": ("TabulatedDistance",),
+    "retrieval": (
+        "BagOfFeatures",
+        "retrieve",
+    ),
 }
-_SUBMODULES = ("benchmarking", "datasets", "errors", "initialization", "pictures", "report", "shapes")
+_SUBMODULES = ("benchmarking", "errors", "initialization", "landmarks", "pictures", "report", "shapes", "surface")
 _HOME = {name: module for module, names in _NAMES.items() for name in names}
 
 __all__ = sorted(_HOME)
+
+keep_old_paths(MOVED)
 
 
 def __getattr__(name: str) -> Any:

@@ -5,44 +5,22 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
-from enum import Enum
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from geodesics.arrays import Bools, Floats, Integers
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
 from gmds.errors import MapArray, MapError
-from gmds.map_file import read_map, write_map
-from gmds.transfer import carry
-
-
-class MatchStatus(Enum):
-    """How far a map can be trusted, best first; the value is a sentence for people."""
-
-    GOOD = "The map preserves distances well and no other map does nearly as well."
-    AMBIGUOUS = "Another map, for instance the mirrored one, does nearly as well; see `candidates`."
-    UNRATED = "Nobody has rated this map; see `distortion`."
-    POOR = "Distances are badly preserved; the two surfaces may not be the same kind of thing."
-
-    @property
-    def rank(self) -> int:
-        """0 for the best status, growing as trust falls."""
-        return list(MatchStatus).index(self)
-
-
-@dataclass(frozen=True, eq=False)
-class Candidate:
-    """Another map worth looking at, for instance the mirrored one.
-
-    `points` has one row per source vertex; `stress`: mean |d_S - d_Q| between samples over mean d_S (small is good);
-    `orientation` in [-1, 1]: the share of the image's area whose triangles keep their orientation, minus the rest.
-    """
-
-    points: SurfacePoints
-    stress: float
-    orientation: float
+from gmds.maps.images import FAR, image, preimage
+from gmds.maps.npz_format import read_map, write_map
+from gmds.maps.point_map import Candidate, MatchStatus
+from gmds.maps.values import carry
+from gmds.pictures.panels import write_picture
+from gmds.report.notebook import mimebundle
+from gmds.report.page import write_report
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +30,7 @@ class Correspondence:
     `points`: n SurfacePoints on the target. `valid` (n,) bool: False where the vertex has no counterpart; the point
     of such a row is finite and means nothing. `distortion` (n,) float64 >= 0: how badly distances from the vertex are
     preserved, over the mean distance; small is trustworthy. `candidates`: other maps, best first. `meta`: parameters,
-    seed, notes (`gmds.notes`), versions and timings, as JSON can carry them.
+    seed, notes (`gmds.matching.notes`), versions and timings, as JSON can carry them.
 
     Raises `MapError` when a row is missing, lies on another mesh than `target`, or its distortion is not finite.
     """
@@ -60,8 +38,8 @@ class Correspondence:
     source: Mesh
     target: Mesh
     points: SurfacePoints
-    valid: NDArray[np.bool_]
-    distortion: NDArray[np.float64]
+    valid: Bools
+    distortion: Floats
     status: MatchStatus = MatchStatus.UNRATED
     candidates: tuple[Candidate, ...] = ()
     meta: Mapping[str, Any] = field(default_factory=dict)
@@ -105,12 +83,10 @@ class Correspondence:
         return f"Correspondence({counts}, {self.status.name})"
 
     def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
-        """For notebooks: a small picture and a few figures (see `gmds.notebook`)."""
-        from gmds.notebook import mimebundle
-
+        """For notebooks: a small picture and a few figures (see `gmds.report.notebook`)."""
         return mimebundle(self)
 
-    def vertex_map(self) -> NDArray[np.int64]:
+    def vertex_map(self) -> Integers:
         """The target vertex nearest to each point, among the corners of its face: (n,) int64."""
         return self.points.nearest_vertices()
 
@@ -128,37 +104,45 @@ class Correspondence:
         return moved
 
     def inverse(self) -> Correspondence:
-        """The map from target to source: each target vertex goes to where the nearest image of a source triangle is.
+        """The map from target to source.
 
-        See `gmds.algebra.invert` for the method and its limits.
+        The images of the source triangles are triangles lying along the target. Each target vertex takes the nearest
+        point (in space) of the nearest of them, and that point's barycentric weights in the source triangle; a vertex
+        map that is one to one is therefore inverted exactly. Triangles with a corner that is not valid, or torn apart
+        by the map (an edge stretched more than 5 times and longer than 0.1 sqrt(area)), are left out. A vertex is not
+        `valid` when the nearest image is further than 0.05 sqrt(target area), or when it is on no face. Distortion is
+        that of the source point plus the distance to the image over sqrt(target area); candidates are dropped.
         """
-        from gmds.algebra import invert
-
-        return invert(self)
+        source, target = self.source, self.target
+        points, gap = preimage(self, np.arange(target.n_vertices))
+        valid = (gap <= FAR) & (np.bincount(target.faces.ravel(), minlength=target.n_vertices) > 0)
+        distortion = np.where(np.isfinite(gap), points.interpolate(self.distortion) + gap, 1.0)
+        return Correspondence(target, source, points, valid, distortion, self.status, (), self.meta)
 
     def compose(self, other: Correspondence) -> Correspondence:
-        """First this map, then `other`, whose source is this map's target.
+        """First this map, then `other`, through which the points of this one are sent (see `gmds.maps.images.image`).
 
-        See `gmds.algebra.compose` for the method. Raises `MapError` when the meshes do not meet.
+        A row is `valid` when this map is there and `other` is at every corner with weight; distortions add. Raises
+        `MapError` when `other` does not start on the mesh where this map ends.
         """
-        from gmds.algebra import compose
-
-        return compose(self, other)
+        if self.target is not other.source:
+            raise MapError("the second map must start on the very mesh (the same object) on which the first one ends")
+        points, valid, distortion = image(other, self.points)
+        status = max(self.status, other.status, key=lambda status: status.rank)
+        return Correspondence(
+            self.source, other.target, points, self.valid & valid, self.distortion + distortion, status
+        )
 
     def report(self, path: str | os.PathLike[str], errors: ArrayLike | None = None, **options: Any) -> None:
         """Write a page to look at this map in a browser; see `gmds.report.write_report`."""
-        from gmds.report import write_report
-
         write_report(path, self, errors, **options)
 
     def picture(self, path: str | os.PathLike[str], errors: ArrayLike | None = None, **options: Any) -> str:
         """Draw both surfaces, corresponding points in the same colour; see `gmds.pictures.write_picture`."""
-        from gmds.pictures import write_picture
-
         return write_picture(path, self, errors, **options)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write map.npz, version 1 (see `gmds.map_file`), atomically; candidates are not kept."""
+        """Write map.npz, version 1 (see `gmds.maps.npz_format`), atomically; candidates are not kept."""
         arrays = {
             "face": self.points.face,
             "barycentric": self.points.barycentric,

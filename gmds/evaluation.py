@@ -10,17 +10,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from geodesics.curvature import one_ring_areas
+from geodesics.arrays import Bools, Floats, Integers
 from geodesics.distance import Distance
 from geodesics.mesh import Mesh
+from geodesics.one_ring import one_ring_areas
 from geodesics.points import SurfacePoints
-from gmds.correspondence import Correspondence
 from gmds.errors import MapError
-
-Array = NDArray[np.float64]
-Indices = NDArray[np.int64]
+from gmds.maps.point_map import PointMap
 
 PROTOCOL_POINTS = 125
 CHUNK = 64  # truth points marched at once, so that memory stays at CHUNK times the vertices
@@ -39,12 +37,12 @@ class ErrorSummary:
 
 
 def geodesic_error(
-    answer: Correspondence | SurfacePoints,
+    answer: PointMap | SurfacePoints,
     truth: SurfacePoints | ArrayLike,
     source_indices: ArrayLike | None = None,
     *,
     distance: Distance | None = None,
-) -> Array:
+) -> Floats:
     """Geodesic distance from each mapped point to its true point over sqrt(target area): (p,) errors >= 0.
 
     `truth`: p points of the target, or p target vertex indices. `source_indices` (p,): which source vertices they
@@ -54,7 +52,7 @@ def geodesic_error(
     measured straight. A mapped point that can not be reached from the true one (another component) gets the largest
     distance that can be reached. Raises `MapError` when rows do not fit or the truth is on another mesh.
     """
-    points = answer.points if isinstance(answer, Correspondence) else answer
+    points = answer if isinstance(answer, SurfacePoints) else answer.points
     if source_indices is not None:
         points = points[_checked(source_indices, len(points))]
     target = points.mesh
@@ -69,7 +67,7 @@ def geodesic_error(
     return np.where(_on_one_face(points, truth), straight, marched) / np.sqrt(target.area)
 
 
-def errors_of_maps(answer: Correspondence, truth: SurfacePoints | ArrayLike, source_indices: ArrayLike) -> Array:
+def errors_of_maps(answer: PointMap, truth: SurfacePoints | ArrayLike, source_indices: ArrayLike) -> Floats:
     """The `geodesic_error` of a map and of each of its candidates, (1 + candidates, n); NaN where no truth is given.
 
     `truth` and `source_indices` (p,) as there.
@@ -82,7 +80,7 @@ def errors_of_maps(answer: Correspondence, truth: SurfacePoints | ArrayLike, sou
     return errors
 
 
-def error_curve(errors: ArrayLike, thresholds: ArrayLike | None = None) -> Array:
+def error_curve(errors: ArrayLike, thresholds: ArrayLike | None = None) -> Floats:
     """The share in [0, 1] of errors at most each threshold, (t,); thresholds are 0, 0.01 .. 0.25 unless given."""
     thresholds = np.linspace(0, 0.25, 26) if thresholds is None else np.asarray(thresholds, dtype=np.float64)
     ordered = np.sort(np.asarray(errors, dtype=np.float64).ravel())
@@ -98,12 +96,12 @@ def summary(errors: ArrayLike) -> ErrorSummary:
     return ErrorSummary(len(errors), 100 * float(errors.mean()), 100 * float(np.median(errors)), *within.tolist())
 
 
-def protocol_subset(count: int, size: int = PROTOCOL_POINTS) -> Indices:
+def protocol_subset(count: int, size: int = PROTOCOL_POINTS) -> Integers:
     """Which of `count` truth points are judged: `size` of them, evenly spread over the list, always the same."""
     return np.unique(np.linspace(0, count - 1, min(size, count)).round().astype(np.int64))
 
 
-def coverage(answer: Correspondence) -> float:
+def coverage(answer: PointMap) -> float:
     """The share in [0, 1] of the target's area that belongs to vertices some source vertex is mapped to."""
     target = answer.target
     area = one_ring_areas(target)
@@ -116,7 +114,7 @@ def _embedded_geodesics(target: Mesh) -> Distance:
     return GeodesicDistance(embedded(target))
 
 
-def _marched(points: SurfacePoints, truth: SurfacePoints, distance: Distance) -> Array:
+def _marched(points: SurfacePoints, truth: SurfacePoints, distance: Distance) -> Floats:
     """Distance (p,) by linear interpolation of one field per distinct truth point."""
     _, first, which = np.unique(
         np.column_stack([truth.face, truth.barycentric]), axis=0, return_index=True, return_inverse=True
@@ -134,14 +132,14 @@ def _marched(points: SurfacePoints, truth: SurfacePoints, distance: Distance) ->
     return result
 
 
-def _on_one_face(points: SurfacePoints, truth: SurfacePoints) -> NDArray[np.bool_]:
+def _on_one_face(points: SurfacePoints, truth: SurfacePoints) -> Bools:
     """True where every corner that carries the true point is a corner of the mapped point's face, (p,)."""
     mapped, true = points.mesh.faces[points.face], truth.mesh.faces[truth.face]
     shared = (true[:, :, None] == mapped[:, None, :]).any(axis=2)
     return (shared | (truth.barycentric <= 0)).all(axis=1)
 
 
-def _checked(indices: ArrayLike, rows: int) -> Indices:
+def _checked(indices: ArrayLike, rows: int) -> Integers:
     indices = np.asarray(indices, dtype=np.int64).reshape(-1)
     bad = np.flatnonzero((indices < 0) | (indices >= rows))
     if len(bad):

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geodesics import Mesh
-from gmds.rendering import render
-from gmds.views import Direction, broadside
+from gmds.pictures.camera import Direction, broadside
+from gmds.pictures.software import render
 
 Array = NDArray[np.float64]
 

@@ -20,11 +20,11 @@ from numpy.typing import NDArray
 import gmds
 from geodesics import Mesh, MeshError, read_mesh
 from geodesics.errors import FormatError
-from gmds.landmark_files import Landmarks, read_landmarks
-from gmds.landmark_transfer import carry_landmarks
+from gmds.landmarks.files import Landmarks, read_landmarks
+from gmds.landmarks.transfer import carry_landmarks
+from gmds.pictures.camera import Direction
 from gmds.shapes import quadruped
-from gmds.surface import Surface, measure
-from gmds.views import Direction
+from gmds.surface.measured import Surface, measure
 
 Array = NDArray[np.float64]
 

@@ -16,11 +16,11 @@ from numpy.typing import ArrayLike
 from PIL import Image
 
 from geodesics import Mesh, SurfacePoints, embedded, read_mesh, scale_invariant
-from gmds.colours import label_colours, value_colours
 from gmds.deformations import branch_log_scale, compose, local_scaling, remeshing
-from gmds.rendering import render
+from gmds.pictures.camera import broadside
+from gmds.pictures.colours import label_colours, value_colours
+from gmds.pictures.software import render
 from gmds.shapes import quadruped
-from gmds.views import broadside
 
 Picture = np.ndarray
 METRICS = {"regular": embedded, "invariant": scale_invariant}

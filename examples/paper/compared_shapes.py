@@ -10,12 +10,12 @@ import numpy as np
 
 from geodesics import Mesh, read_mesh
 from gmds.deformations import local_scaling
-from gmds.deformations.extremities import edge_distances
+from gmds.deformations.limbs import edge_distances
 from gmds.shapes import humanoid, quadruped
 from gmds.shapes.figure import figure
 from gmds.shapes.implicit import Cone, Ellipsoid
 from gmds.shapes.quadruped import BODY, POSES
-from gmds.surface import measure
+from gmds.surface.measured import measure
 
 
 def built_in(small: bool) -> dict[str, Mesh]:

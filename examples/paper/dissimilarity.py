@@ -22,12 +22,12 @@ from dissimilarity_tables import markdown
 
 from geodesics import Mesh, Metric, embedded, read_mesh
 from gmds import distance_profile, least_distortion
-from gmds.comparison import families, nearest, neighbour_accuracy
-from gmds.comparison_picture import comparison_figure
-from gmds.comparison_run import mesh_files
+from gmds.comparison.clustering import families, nearest, neighbour_accuracy
+from gmds.comparison.distortion import embedding_distortion
+from gmds.comparison.figure import comparison_figure
+from gmds.comparison.profiles import METRICS, views
 from gmds.deformations import deformed
-from gmds.morphometry import embedding_distortion
-from gmds.profiles import METRICS, views
+from gmds.files.folders import mesh_files
 from gmds.retrieval.mending import largest_piece
 
 Array = np.ndarray

@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from geodesics import eigenpairs, embedded, heat_kernel_signature, scaled_heat_kernel_signature
-from gmds.deformations.extremities import extremities
+from gmds.deformations.limbs import extremities
 
 Array = NDArray[np.float64]
 TIMES, SHOWN = np.geomspace(3e-3, 0.3, 20), np.array([3e-3, 1e-2, 3e-2, 1e-1])

@@ -15,7 +15,7 @@ from common import METRICS, copies, grid, options, picture, publish, shapes
 from scipy.optimize import linear_sum_assignment
 
 from geodesics import DiffusionDistance, eigenpairs, embedded, farthest_point_sampling, voronoi_cells
-from gmds.deformations.extremities import extremities
+from gmds.deformations.limbs import extremities
 
 COUNT, TIME = 30, 0.05
 

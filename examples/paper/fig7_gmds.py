@@ -15,8 +15,8 @@ from common import Z_UP, copies, grid, options, picture, publish, shapes
 import gmds
 from geodesics import Mesh
 from gmds.cli.choices import chosen_distance
-from gmds.colours import position_colours
 from gmds.evaluation import protocol_subset
+from gmds.pictures.colours import position_colours
 
 WAYS: dict[str, Callable[[Mesh], Any] | None] = {
     "regular": chosen_distance("embedded", "diffusion"),

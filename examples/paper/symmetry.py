@@ -11,12 +11,12 @@ from common import Z_UP, Picture, grid, options, picture, publish
 
 import gmds
 from geodesics import Mesh, SurfacePoints, read_mesh
-from gmds.colours import position_colours
 from gmds.deformations.local_scaling import branch_log_scale, local_scaling
 from gmds.evaluation import protocol_subset
-from gmds.rendering import render
+from gmds.pictures.camera import broadside
+from gmds.pictures.colours import position_colours
+from gmds.pictures.software import render
 from gmds.shapes import quadruped
-from gmds.views import broadside
 
 COLUMNS = ("a colour for each point", "the colour of its\nmirror image", "how far that is\n(dark: on the axis)")
 GROWN = ("one part twice as big", "the colour of its\nmirror image")

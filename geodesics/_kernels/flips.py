@@ -5,18 +5,15 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geodesics._kernels.jit import njit
-
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
+from geodesics.arrays import Bools, Floats, Integers
 
 FAN_GAP = 1000.0  # radians between two fans of faces that meet only in a vertex: far more than any angle
 
 
 @njit
-def orientation(faces: Integers, twin: Integers) -> NDArray[np.bool_]:
+def orientation(faces: Integers, twin: Integers) -> Bools:
     """Faces (m,) to turn over so that neighbours agree; pairs of twins (3 m,) that can not agree are set to -1."""
     m = faces.shape[0]
     sign = np.zeros(m, dtype=np.int64)

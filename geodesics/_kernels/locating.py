@@ -6,12 +6,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geodesics._kernels.jit import njit
-
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
+from geodesics.arrays import Floats, Integers
 
 
 class Net(NamedTuple):

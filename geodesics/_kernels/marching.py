@@ -6,12 +6,10 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geodesics._kernels.jit import inlined, njit, uncounted
+from geodesics.arrays import Bools, Floats, Integers
 
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
 Pair = tuple[float, float]
 Table = tuple[Integers, Integers, Floats]
 Triple = tuple[float, float, float]
@@ -58,7 +56,7 @@ class Until(NamedTuple):
     `margin` after the last of the `missing` vertices marked in wanted (n,)."""
 
     nearest: Floats
-    wanted: NDArray[np.bool_]
+    wanted: Bools
     missing: int
     limit: float
     margin: float

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geodesics._kernels.jit import njit
-
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
+from geodesics.arrays import Floats, Integers
 
 
 @njit
-def closer_rows(rows: Array, label: Index, linked: bool, row: int, nearest: Array) -> tuple[Index, Array]:
+def closer_rows(rows: Floats, label: Integers, linked: bool, row: int, nearest: Floats) -> tuple[Integers, Floats]:
     """The rows (n, k) whose distance from `row` is less than their `nearest` (n,), and that distance.
 
     Rows with a negative `label` (n,) do not count, nor, unless all are `linked`, those with another than that of `row`.

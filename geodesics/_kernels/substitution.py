@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geodesics._kernels.jit import inlined, uncounted
+from geodesics.arrays import Floats
 
-Floats = NDArray[np.float64]
 Indices = NDArray[np.int32]
 
 WIDTH = 8  # scalars, as eight of them stay in registers and loops over them do not

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geodesics._kernels.jit import njit
-
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
+from geodesics.arrays import Floats, Integers
 
 NO_NEIGHBOUR = -1
 """What `neighbour[f, k]` holds where nothing lies across the edge of face f opposite corner k."""
 
 
 @njit
-def _corner(f: int, k: int, layout: Array) -> tuple[float, float]:
+def _corner(f: int, k: int, layout: Floats) -> tuple[float, float]:
     """Corner k of face f in the plane: corner 0 at the origin, corner 1 on the x axis, corner 2 above it."""
     if k == 0:
         return 0.0, 0.0
@@ -25,7 +22,7 @@ def _corner(f: int, k: int, layout: Array) -> tuple[float, float]:
 
 
 @njit
-def _edge(f: int, a: int, b: int, layout: Array) -> tuple[float, float, float, float]:
+def _edge(f: int, a: int, b: int, layout: Floats) -> tuple[float, float, float, float]:
     """Unit vector from corner a to corner b of face f, and the unit normal of that edge towards the third corner."""
     ax, ay = _corner(f, a, layout)
     bx, by = _corner(f, b, layout)
@@ -41,8 +38,8 @@ def _edge(f: int, a: int, b: int, layout: Array) -> tuple[float, float, float, f
 
 @njit
 def walk(
-    face: Index, barycentric: Array, displacement: Array, neighbour: Index, layout: Array, max_crossings: int
-) -> tuple[Index, Array]:
+    face: Integers, barycentric: Floats, displacement: Floats, neighbour: Integers, layout: Floats, max_crossings: int
+) -> tuple[Integers, Floats]:
     """Move every point (p,) by its displacement (p, 2), unfolding the next face into the plane at every edge.
 
     `neighbour` (m, 3) is 9 g + 3 a + b: across the edge of f opposite corner k lies face g, whose corners a and b are

@@ -8,8 +8,8 @@ from itertools import islice
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from geodesics.arrays import Floats
 from geodesics.errors import BadPolygon, BadToken, FormatError, IndexOutOfRange, TruncatedFile
 from geodesics.io.text import Contents, Row, corners, count, fan, numbers, rows, whole
 from geodesics.io.truncation import refuse_cut_face
@@ -100,7 +100,7 @@ def _add_property(element: Element, words: list[str], place: str) -> None:
 
 def _read_ascii(data: bytes, body: int, n_lines: int, elements: list[Element], path: Path) -> Contents:
     lines = rows(data[body:], path, comment=None, first_line=n_lines + 1)
-    vertices: NDArray[np.float64] = np.empty((0, 3))
+    vertices: Floats = np.empty((0, 3))
     polygons: list[list[int]] = []
     ends_with_corners = False
     for element in elements:

@@ -7,8 +7,8 @@ from io import BytesIO
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from geodesics.arrays import Floats
 from geodesics.errors import Note, TruncatedFile
 from geodesics.io.opening import is_binary_stl
 from geodesics.io.text import Contents, numbers, rows
@@ -33,7 +33,7 @@ def read_stl(data: bytes, path: Path) -> Contents:
     return _weld(soup)
 
 
-def _read_ascii(data: bytes, path: Path) -> NDArray[np.float64]:
+def _read_ascii(data: bytes, path: Path) -> Floats:
     """Corner positions (3 m, 3) of an ASCII STL file whose every facet is complete."""
     vertex_rows, state, keyword = [], 0, ""
     for row in rows(data, path, comment=None):
@@ -50,7 +50,7 @@ def _read_ascii(data: bytes, path: Path) -> NDArray[np.float64]:
     return numbers(vertex_rows, 1, path)
 
 
-def _weld(soup: NDArray[np.float64]) -> Contents:
+def _weld(soup: Floats) -> Contents:
     """Equal positions become one vertex, numbered by first appearance."""
     _, first, inverse = np.unique(soup, axis=0, return_index=True, return_inverse=True)
     rank = np.empty(len(first), dtype=np.int64)

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from geodesics.arrays import Floats, Integers
 from geodesics.errors import (
     BadCount,
     BadPolygon,
@@ -29,8 +29,8 @@ _DECIMAL = frozenset("0123456789+-.eE")
 class Contents:
     """What a file holds: vertices (n, 3), triangles (m, 3) and the notes taken on the way."""
 
-    vertices: NDArray[np.float64]
-    triangles: NDArray[np.int64]
+    vertices: Floats
+    triangles: Integers
     notes: list[Note] = field(default_factory=list)
 
 
@@ -52,7 +52,7 @@ def rows(data: bytes, path: Path, comment: str | None = "#", first_line: int = 1
             yield Row(number, words)
 
 
-def numbers(table: Sequence[Row], first: int, path: Path, columns: int = 3) -> NDArray[np.float64]:
+def numbers(table: Sequence[Row], first: int, path: Path, columns: int = 3) -> Floats:
     """Words first .. first + columns of every row, as float64; only plain decimals pass (`BadToken`, E207)."""
     for row in table:
         if len(row.words) < first + columns:
@@ -121,7 +121,7 @@ def vertex_index(word: str, n_vertices: int, base: int, place: str) -> int:
     return index
 
 
-def fan(polygons: list[list[int]]) -> tuple[NDArray[np.int64], list[Note]]:
+def fan(polygons: list[list[int]]) -> tuple[Integers, list[Note]]:
     """Polygons split into triangles about their first corner, in order, with a note (W210) when any was larger."""
     triangles = [(p[0], p[i], p[i + 1]) for p in polygons for i in range(1, len(p) - 1)]
     larger = [i for i, p in enumerate(polygons) if len(p) > 3]

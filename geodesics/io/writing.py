@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from geodesics.arrays import Floats, Integers
 from geodesics.errors import CoordinateRange, UnknownFormat
 from geodesics.mesh import Mesh
 
@@ -27,7 +27,7 @@ def encode(mesh: Mesh, suffix: str) -> dict[str, bytes]:
     raise UnknownFormat(f"no writer for {suffix!r}; end the name with .off, .obj, .ply, .stl, .glb, .vert or .tri")
 
 
-def _rows(prefix: str, table: NDArray[np.float64] | NDArray[np.int64]) -> Iterable[str]:
+def _rows(prefix: str, table: Floats | Integers) -> Iterable[str]:
     return (prefix + " ".join(map(repr, row)) for row in table.tolist())
 
 
@@ -35,7 +35,7 @@ def _lines(*blocks: Iterable[str]) -> bytes:
     return "".join(f"{line}\n" for block in blocks for line in block).encode("ascii")
 
 
-def _ply(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> bytes:
+def _ply(vertices: Floats, faces: Integers) -> bytes:
     """Binary PLY in double precision (the writer of trimesh has single precision only)."""
     header = (
         f"ply\nformat binary_little_endian 1.0\nelement vertex {len(vertices)}\n"

@@ -7,11 +7,11 @@ import numpy as np
 from geodesics import intrinsic
 from geodesics.curvature import curvature_time, smoothed_density
 from geodesics.delaunay import IntrinsicTriangulation
-from geodesics.laplacian import vertex_sums
+from geodesics.intrinsic import vertex_sums
 from geodesics.mesh import Mesh
 from geodesics.metric import Metric
 from geodesics.metrics.equi_affine import equi_affine_tensor, metric_of_lengths, shared_lengths
-from geodesics.topology import boundary_vertices
+from geodesics.topology.components import boundary_vertices
 
 
 def affine(mesh: Mesh, *, regularisation: float = 1.0, smoothing: float = 2e-2) -> Metric:

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geodesics import intrinsic
+from geodesics.arrays import Floats, Integers
 from geodesics.curvature import vertex_normals
-from geodesics.laplacian import vertex_sums
+from geodesics.intrinsic import vertex_sums
 from geodesics.mesh import Mesh
 from geodesics.metric import Metric
-
-Array = NDArray[np.float64]
 
 
 def equi_affine(mesh: Mesh, *, regularisation: float = 0.05) -> Metric:
@@ -24,7 +22,7 @@ def equi_affine(mesh: Mesh, *, regularisation: float = 0.05) -> Metric:
     return metric_of_lengths(mesh, intrinsic.lengths_from_tensor(equi_affine_tensor(mesh, regularisation)))
 
 
-def equi_affine_tensor(mesh: Mesh, regularisation: float = 0.05) -> Array:
+def equi_affine_tensor(mesh: Mesh, regularisation: float = 0.05) -> Floats:
     """|K|^(-1/4) |b_ij| per face (m, 2, 2), in barycentric coordinates; units of length^(3/2)."""
     v, faces = mesh.vertices, mesh.faces
     edge = np.stack([v[faces[:, 1]] - v[faces[:, 0]], v[faces[:, 2]] - v[faces[:, 0]]], axis=1)
@@ -47,7 +45,7 @@ def equi_affine_tensor(mesh: Mesh, regularisation: float = 0.05) -> Array:
     return positive * (curvature.prod(axis=1) ** -0.25)[:, None, None]
 
 
-def metric_of_lengths(mesh: Mesh, l_sq: Array) -> Metric:
+def metric_of_lengths(mesh: Mesh, l_sq: Floats) -> Metric:
     """The metric with these squared lengths (m, 3), made equal along the edges of neighbouring faces.
 
     Each edge takes the mean of its faces, which leaves the operator as it is and makes geodesics the same both ways;
@@ -60,7 +58,7 @@ def metric_of_lengths(mesh: Mesh, l_sq: Array) -> Metric:
     return Metric(mesh, l_sq, vertex_sums(mesh.faces, intrinsic.areas(l_sq) / 3, mesh.n_vertices))
 
 
-def shared_lengths(faces: NDArray[np.int64], l_sq: Array, n: int) -> Array:
+def shared_lengths(faces: Integers, l_sq: Floats, n: int) -> Floats:
     """Squared edge lengths (m, 3) on which neighbouring faces agree: from the mean length over the faces of each edge.
 
     Angles add up round a vertex only then.

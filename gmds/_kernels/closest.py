@@ -6,16 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geodesics._kernels.jit import njit, summing
+from geodesics.arrays import Floats, Integers
 
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
 Single = NDArray[np.float32]
 
 
 @summing
 def closest_on_faces(
-    queries: Array, rows: Array, faces: Index, ring: Index, start: Index, guess: Index, rounds: int
-) -> tuple[Index, Array, Array]:
+    queries: Floats, rows: Floats, faces: Integers, ring: Integers, start: Integers, guess: Integers, rounds: int
+) -> tuple[Integers, Floats, Floats]:
     """Closest points to `queries` (p, k) on the faces around the vertices `guess` (p,), embedded by `rows` (n, k).
 
     `ring[start[v]:start[v + 1]]` are the faces of vertex v. After each look the guess moves to the corner nearest to
@@ -57,7 +56,9 @@ def closest_on_faces(
 
 
 @summing
-def nearest_around(queries: Single, rows: Single, neighbours: Index, start: Index, guess: Index, rounds: int) -> Index:
+def nearest_around(
+    queries: Single, rows: Single, neighbours: Integers, start: Integers, guess: Integers, rounds: int
+) -> Integers:
     """For each query (p, k) the nearest of the rows (n, k) among those around the row `guess` (p,), and it itself.
 
     `neighbours[start[v]:start[v + 1]]` are those around row v. The nearest is the guess of the next look, of `rounds`

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geodesics._kernels.jit import njit
-
-Array = NDArray[np.float64]
+from geodesics.arrays import Floats
 
 _STEPS = 60
 _SWEEPS = 12
@@ -16,7 +14,7 @@ _CLEAR = 1e-4  # slope of the characteristic polynomial, over the cube of where,
 
 
 @njit
-def nearest_rotations(products: Array) -> tuple[Array, Array]:
+def nearest_rotations(products: Floats) -> tuple[Floats, Floats]:
     """For each S (n, 3, 3) = sum x y^T the rotation R (n, 3, 3) for which sum y . R x is largest, and that sum (n,).
 
     The unit quaternion of R is the eigenvector of the largest eigenvalue of a symmetric 4 x 4 matrix M without trace
@@ -61,7 +59,7 @@ def nearest_rotations(products: Array) -> tuple[Array, Array]:
 
 
 @njit
-def _largest(m: Array, s: Array, a: Array, q: Array) -> float:
+def _largest(m: Floats, s: Floats, a: Floats, q: Floats) -> float:
     """The largest eigenvalue of m (4, 4), and its unit eigenvector in q (4,); -1 where the next is too near.
 
     The characteristic polynomial is x^4 - 2 |S|^2 x^2 - 8 det(S) x + det(M).
@@ -106,7 +104,7 @@ def _largest(m: Array, s: Array, a: Array, q: Array) -> float:
 
 
 @njit
-def _cofactor(a: Array, row: int, column: int) -> float:
+def _cofactor(a: Floats, row: int, column: int) -> float:
     """The cofactor of an entry of a (4, 4)."""
     i, j, k = (row + 1) % 4, (row + 2) % 4, (row + 3) % 4
     p, q, r = (column + 1) % 4, (column + 2) % 4, (column + 3) % 4
@@ -120,7 +118,7 @@ def _cofactor(a: Array, row: int, column: int) -> float:
 
 
 @njit
-def _determinant(a: Array) -> float:
+def _determinant(a: Floats) -> float:
     """The determinant of a (4, 4)."""
     return (
         a[0, 0] * _cofactor(a, 0, 0)
@@ -131,7 +129,7 @@ def _determinant(a: Array) -> float:
 
 
 @njit
-def _diagonalise(m: Array, v: Array) -> None:
+def _diagonalise(m: Floats, v: Floats) -> None:
     """Jacobi rotations: on return m (4, 4) is diagonal, and the columns of v (4, 4) are its eigenvectors."""
     size = 0.0
     for a in range(4):

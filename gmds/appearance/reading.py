@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geodesics import Mesh
+from geodesics.arrays import Floats
 from geodesics.errors import FormatError, MissingExtra
 from geodesics.io.opening import read_bytes, sniff
 
@@ -29,7 +30,7 @@ class Look:
     faces, or None, from (0, 0) at the lower left of the `image`, a PIL image, or None."""
 
     colours: NDArray[np.uint8] | None = None
-    uv: NDArray[np.float64] | None = None
+    uv: Floats | None = None
     image: Any = None
 
 

@@ -4,23 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 
 from geodesics import Mesh, SurfacePoints
+from geodesics.arrays import Bools, Floats, Integers
 from geodesics.closest import closest_weights
-from gmds.correspondence import Correspondence
 from gmds.errors import MapError
-
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
+from gmds.maps.point_map import PointMap
 
 SAME = 1e-6  # texture coordinates closer than this are one
 JUMP = 0.5  # of the length of an edge in the image, by which it ends elsewhere than foretold where it crosses a cut
 LARGEST = 2000  # faces of a patch
 
 
-def carry_uv(answer: Correspondence, uv: Array) -> tuple[Array, NDArray[np.bool_]]:
+def carry_uv(answer: PointMap, uv: Floats) -> tuple[Floats, Bools]:
     """Texture coordinates (m_target, 3, 2) of the corners of the target's faces as those of the source's, (m, 3, 2).
 
     A corner gets what the texture has where its vertex goes. A face whose corners go to different charts of the
@@ -49,12 +46,12 @@ def carry_uv(answer: Correspondence, uv: Array) -> tuple[Array, NDArray[np.bool_
     return carried, across
 
 
-def charts(mesh: Mesh, uv: Array) -> Index:
+def charts(mesh: Mesh, uv: Floats) -> Integers:
     """The number (m,) of the piece of the texture, in one part and uncut, that each face lies in."""
     return np.asarray(connected_components(_joined(mesh, uv), directed=False)[1], dtype=np.int64)
 
 
-def _joined(mesh: Mesh, uv: Array) -> sp.csr_matrix:
+def _joined(mesh: Mesh, uv: Floats) -> sp.csr_matrix:
     """Which faces (m, m) share an edge with the same texture coordinates on both sides."""
     m = mesh.n_faces
     start, end = mesh.faces, np.roll(mesh.faces, -1, axis=1)
@@ -71,7 +68,7 @@ def _joined(mesh: Mesh, uv: Array) -> sp.csr_matrix:
     return sp.csr_matrix(graph + graph.T)
 
 
-def _torn(mesh: Mesh, uv: Array, points: SurfacePoints, faces: Index) -> NDArray[np.bool_]:
+def _torn(mesh: Mesh, uv: Floats, points: SurfacePoints, faces: Integers) -> Bools:
     """Whether a face (m,) with corners at these points has an edge whose ends are not where each other's face says.
 
     The coordinates of a face of the mesh, continued in its plane to the other end of the edge, foretell what is there.
@@ -88,7 +85,7 @@ def _torn(mesh: Mesh, uv: Array, points: SurfacePoints, faces: Index) -> NDArray
     return result
 
 
-def _looked_up(mesh: Mesh, uv: Array, patch: Index, place: Array) -> Array:
+def _looked_up(mesh: Mesh, uv: Floats, patch: Integers, place: Floats) -> Floats:
     """Texture coordinates (2,) of the point of the patch closest to a place (3,); of several, on its first face."""
     triangles = mesh.vertices[mesh.faces[patch]]
     weights = closest_weights(np.tile(place, (len(patch), 1)), triangles)
@@ -97,7 +94,7 @@ def _looked_up(mesh: Mesh, uv: Array, patch: Index, place: Array) -> Array:
     return np.asarray(weights[near] @ uv[patch[near]], dtype=np.float64)
 
 
-def _patch(mesh: Mesh, joined: sp.csr_matrix, face: int, corners: Array) -> Index:
+def _patch(mesh: Mesh, joined: sp.csr_matrix, face: int, corners: Floats) -> Integers:
     """Faces around `face` that are reached without crossing a seam, as far as the corners (3, 3) lie from it."""
     middle = corners.mean(axis=0)
     reach = 1.5 * float(np.linalg.norm(corners - middle, axis=1).max())

@@ -9,15 +9,13 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geodesics import Mesh, SurfacePoints
+from geodesics.arrays import Integers
 from geodesics.io import atomic_write
 from gmds.batch.cycles import CarriedMap, Consistency, Pair, consistency
 from gmds.batch.records import PairRecord, ShapeRecord
 from gmds.batch.store import Store
-
-Index = NDArray[np.int64]
 
 SAMPLES = 300  # of each shape, that go around
 IN_MEMORY = 4096  # maps
@@ -34,7 +32,7 @@ def agreement(
     """How well the maps of the pairs agree, from what is in the folder and in the store."""
 
     @functools.lru_cache(SHAPES_IN_MEMORY)
-    def shape(name: str) -> tuple[Mesh, Index]:
+    def shape(name: str) -> tuple[Mesh, Integers]:
         return store.outside(shapes[name], SAMPLES)
 
     @functools.lru_cache(IN_MEMORY)

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from geodesics import Mesh, read_mesh
+from gmds.batch.pair_choice import Choice, Pairs, all_pairs
 from gmds.batch.pair_list import read_list
-from gmds.batch.pairs import Choice, Pairs, all_pairs
-from gmds.comparison_run import mesh_files
+from gmds.files.folders import mesh_files
 
 LONGEST = 100  # bytes of a name: two of them and a little more make the name of a file
 Given = str | os.PathLike[str] | Mapping[str, Mesh | str | os.PathLike[str]] | Sequence[str | os.PathLike[str]]

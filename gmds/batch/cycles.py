@@ -9,12 +9,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 
 from geodesics import SurfacePoints
+from geodesics.arrays import Bools, Floats, Integers
 
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
 Pair = tuple[str, str]
 Route = tuple[str, str, str]
 
@@ -31,14 +29,14 @@ class CarriedMap:
     """
 
     matrix: sp.csr_matrix
-    positions: Array
-    valid: NDArray[np.bool_]
-    samples: Index
-    place: Array
+    positions: Floats
+    valid: Bools
+    samples: Integers
+    place: Floats
     size: float
 
     @classmethod
-    def of(cls, points: SurfacePoints, valid: NDArray[np.bool_], samples: Index, place: Array) -> CarriedMap:
+    def of(cls, points: SurfacePoints, valid: Bools, samples: Integers, place: Floats) -> CarriedMap:
         """The map that sends source vertices, which are at `place` (n, 3), to `points` (n,)."""
         corners, n = points.mesh.faces[points.face], len(points)
         entries = points.barycentric.ravel(), (np.repeat(np.arange(n), 3), corners.ravel())

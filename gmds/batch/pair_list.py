@@ -6,7 +6,7 @@ import csv
 from pathlib import Path
 
 from gmds.errors import BadPairList
-from gmds.text_file import read_text
+from gmds.files.text import read_text
 
 LARGEST = 1 << 28  # bytes
 HEADER = ("source", "target")

@@ -9,22 +9,21 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from gmds._validation import check_keys
-from gmds.answer import versions
 from gmds.batch.agreement import agreement, write_cycles
 from gmds.batch.collection import Collection, Given
 from gmds.batch.cycles import Consistency
-from gmds.batch.engine import local_client, outcomes
-from gmds.batch.kept import Expected, pair_record
+from gmds.batch.existing_maps import Expected, pair_record
 from gmds.batch.lock import only_run
 from gmds.batch.manifest import Manifest, event, write_summary
-from gmds.batch.pairs import Choice, Pairs
+from gmds.batch.pair_choice import Choice, Pairs
 from gmds.batch.records import Failure, PairRecord, ShapeRecord
 from gmds.batch.store import Store
 from gmds.batch.tasks import PairJob, ShapeJob, match_pair, measure_shape
-from gmds.describing import described, is_lasting
-from gmds.losses import LeastSquares
-from gmds.matching import SAMPLES
+from gmds.batch.workers import local_client, outcomes
+from gmds.matching.pipeline import SAMPLES
+from gmds.mds.losses import LeastSquares
+from gmds.provenance import described, is_lasting, versions
+from gmds.suggestions import check_keys
 
 Progress = Callable[[str, float], None]
 

@@ -8,24 +8,28 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geodesics import Mesh
+from geodesics.arrays import Integers
 from geodesics.threads import on_one_blas_thread
-from gmds import refinement, surface, surface_file, upsampling
-from gmds.answer import versions
+from gmds.batch import surface_file
 from gmds.batch.collection import Shape
 from gmds.batch.records import ShapeRecord
+from gmds.batch.surface_file import read_surface, write_surface
 from gmds.errors import SurfaceFileError
-from gmds.map_file import fingerprint
-from gmds.surface import Surface, measure
-from gmds.surface_file import read_surface, write_surface
+from gmds.maps.npz_format import fingerprint
+from gmds.provenance import versions
+from gmds.spectral import refinement
+from gmds.spectral import sample_maps as upsampling
+from gmds.surface import measured as surface
+from gmds.surface.measured import Surface, measure
+from gmds.surface.view import SAMPLING_FUNCTIONS
 
 # what a stored surface depends on besides the mesh
 PARAMETERS = {
     "format": surface_file.VERSION,
     "versions": versions(),
-    "functions": (surface.EIGENFUNCTIONS, surface.ROUGH_FUNCTIONS, surface.SAMPLING_FUNCTIONS),
+    "functions": (surface.EIGENFUNCTIONS, surface.ROUGH_FUNCTIONS, SAMPLING_FUNCTIONS),
     "metrics": (surface.EXPONENTS, surface.SMOOTHING, surface.DETAIL),
     "samples": (upsampling.TARGET_SAMPLES, refinement.CARRIERS, refinement.GOALS),
 }
@@ -58,7 +62,7 @@ class Store:
             vars(found)["reflection"] = read_surface(self._path(record.key, True))
         return found
 
-    def outside(self, record: ShapeRecord, count: int) -> tuple[Mesh, NDArray[np.int64]]:
+    def outside(self, record: ShapeRecord, count: int) -> tuple[Mesh, Integers]:
         """The mesh of a stored surface, and `count` of its vertices evenly spread, without all the rest."""
         with np.load(self._path(record.key, False), allow_pickle=False) as archive:
             most = max(

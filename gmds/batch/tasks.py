@@ -10,7 +10,7 @@ from typing import Any
 
 from gmds.batch.collection import Shape
 from gmds.batch.deadline import deadline
-from gmds.batch.kept import Expected, pair_record
+from gmds.batch.existing_maps import Expected, pair_record
 from gmds.batch.records import Failure, PairRecord, ShapeRecord
 from gmds.batch.store import Store
 

@@ -8,7 +8,7 @@ main = LazyGroup(
     "gmds",
     help="Find which point of one surface is which point of another, whatever their poses and sizes.",
     epilog="Start with `gmds demo`. Each command has examples in its own help: `gmds match --help`.",
-    commands_in="gmds.cli",
+    commands_in="gmds.cli.commands",
     sections={
         "Match": ("demo", "match", "batch"),
         "Use and judge maps": ("landmarks", "transfer", "export", "evaluate", "benchmark"),

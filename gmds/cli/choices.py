@@ -32,7 +32,7 @@ def chosen_metric(name: str) -> Callable[[Mesh], Metric]:
 def chosen_spectrum(metric: str, mesh: Mesh) -> Spectrum:
     """As many eigenpairs of a mesh in the metric of that name as match uses, or as it has."""
     from geodesics import eigenpairs
-    from gmds.surface import EIGENFUNCTIONS
+    from gmds.surface.measured import EIGENFUNCTIONS
 
     return eigenpairs(chosen_metric(metric)(mesh), min(EIGENFUNCTIONS, mesh.n_vertices - 1))
 
@@ -46,7 +46,7 @@ class ChosenDistance:
 
     def __call__(self, mesh: Mesh) -> Any:
         import geodesics
-        from gmds.candidates import TIME
+        from gmds.matching.candidates import TIME
 
         if self.distance == "geodesic":
             return geodesics.GeodesicDistance(chosen_metric(self.metric)(mesh))

@@ -59,7 +59,7 @@ def draw(path: Path | None, surfaces: list[tuple[str, Mesh, NDArray[np.generic]]
     """The picture of (caption, mesh, values) that was asked for, named on stderr once it is written."""
     if path is None:
         return
-    from gmds.pictures import write_values
+    from gmds.pictures.panels import write_values
 
     tell_written(path, write_values(path, surfaces, labels=labels))
 

@@ -138,7 +138,7 @@ def _debug_option() -> click.Option:
 def _version_option() -> click.Option:
     def show(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
         if wanted:
-            from gmds import __version__
+            from gmds._version import __version__
 
             click.echo(f"gmds {__version__}")
             ctx.exit()

@@ -33,7 +33,7 @@ def given_landmarks(paths: Sequence[Path], space: Any, tolerance: float | None =
     With a tolerance they are soft, but for those whose file says otherwise. Raises `click.UsageError` for more than two
     files.
     """
-    from gmds.landmarks import SoftLandmarks
+    from gmds.landmarks.checking import SoftLandmarks
 
     found = _given(paths, space)
     if tolerance is None or found is None or isinstance(found, SoftLandmarks):
@@ -47,10 +47,10 @@ def _given(paths: Sequence[Path], space: Any) -> Any:
     if not paths:
         return None
     if len(paths) == 1:
-        from gmds.cli.landmark_file import read_landmarks as read_pairs
+        from gmds.landmarks.pair_files import read_landmarks as read_pairs
 
         return read_pairs(paths[0])
-    from gmds.landmark_files import paired, read_landmarks
+    from gmds.landmarks.files import paired, read_landmarks
 
     source, target, alone = paired(read_landmarks(paths[0], space), read_landmarks(paths[1], space))
     if alone:

@@ -8,9 +8,9 @@ from typing import Any
 
 from gmds.cli.choices import DISTANCES, LOSSES, METRICS, ChosenDistance, chosen_loss
 from gmds.cli.output import note
-from gmds.describing import in_words
 from gmds.errors import BadSetting
-from gmds.map_file import read_meta
+from gmds.maps.npz_format import read_meta
+from gmds.provenance import in_words
 
 NEEDED = {"n_samples", "orientation", "rng", "loss", "distance"}  # what every match tells of its parameters
 
@@ -21,7 +21,7 @@ def map_settings(path: Path) -> dict[str, dict[str, Any]]:
     Raises `FormatError` when it is no map, `BadSetting` (E603) for a distance or a loss of a user's own, which the
     command line has no name for.
     """
-    from gmds import __version__
+    from gmds._version import __version__
 
     meta = read_meta(path)
     made, versions = meta.get("parameters"), meta.get("versions")

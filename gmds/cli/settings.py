@@ -55,7 +55,7 @@ def read_settings(path: Path) -> Tables:
     The file is .toml, or a map, which holds the settings it was made with. Raises `UnknownKey` (E601) with the nearest
     name, `BadSetting` (E603) naming the key, `FormatError` for a damaged map, `OSError`.
     """
-    from gmds._validation import check_keys
+    from gmds.suggestions import check_keys
 
     content = _of_map(path) if path.suffix.lower() == ".npz" else _parsed(path)
     check_keys(content, TABLES, f"{path}")
@@ -77,7 +77,7 @@ def _of_map(path: Path) -> Tables:
 
 def _parsed(path: Path) -> Tables:
     from gmds.errors import BadSetting
-    from gmds.text_file import read_text
+    from gmds.files.text import read_text
 
     try:
         return tomllib.loads(read_text(path, BadSetting, LARGEST))
@@ -88,14 +88,14 @@ def _parsed(path: Path) -> Tables:
 def _params_of(table: str) -> Iterator[tuple[str, click.Parameter]]:
     """Keys and parameters of a table; commands are imported when it is asked for."""
     for name in COMMANDS if table == SHARED else (table,):
-        for at, key, param in importlib.import_module(f"gmds.cli.{name}").command.settings():
+        for at, key, param in importlib.import_module(f"gmds.cli.commands.{name}").command.settings():
             if at == table:
                 yield key, param
 
 
 def _check(path: Path, name: str, param: click.Parameter, value: Any) -> None:
     """`BadSetting` unless the value is of the type of a parameter, and among those it allows."""
-    from gmds._validation import did_you_mean
+    from gmds.suggestions import did_you_mean
 
     kind = _kind(param)
     listed = param.multiple if isinstance(param, click.Option) else False
@@ -169,7 +169,7 @@ def _as_toml(command: ConfiguredCommand, ctx: click.Context) -> str:
     """All settings in force; TOML has no word for what is not set, so these are named in a comment."""
     import tomli_w
 
-    from gmds import __version__
+    from gmds._version import __version__
 
     tables: Tables = {SHARED: {}, str(command.name): {}}
     unset = []

@@ -6,8 +6,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from geodesics import Mesh, SurfacePoints
-from gmds.deformations.extremities import edge_distances, extremities
 from gmds.deformations.fitting import fit
+from gmds.deformations.limbs import edge_distances, extremities
 from gmds.deformations.truths import moved
 
 

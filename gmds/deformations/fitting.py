@@ -5,16 +5,14 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sp
 import scipy.sparse.linalg as sla
-from numpy.typing import NDArray
 
 from geodesics import Mesh, intrinsic
-
-Array = NDArray[np.float64]
+from geodesics.arrays import Floats, Integers
 
 
 def fit(
-    mesh: Mesh, log_scale: Array, handles: NDArray[np.int64], places: Array, *, iterations: int = 100, tol: float = 1e-5
-) -> Array:
+    mesh: Mesh, log_scale: Floats, handles: Integers, places: Floats, *, iterations: int = 100, tol: float = 1e-5
+) -> Floats:
     """Vertices (n, 3) least in sum_i sum_{e near i} w_e |x_e - exp(u_e) R_i p_e|^2 over x and rotations R_i.
 
     p_e and x_e are the edges of the faces at vertex i before and after, u_e = (u_a + u_b) / 2 for the ends a, b of
@@ -53,7 +51,7 @@ def fit(
     return x
 
 
-def _rotations(matrices: Array) -> Array:
+def _rotations(matrices: Floats) -> Floats:
     """The rotations (n, 3, 3) nearest to the matrices."""
     u, _, vt = np.linalg.svd(matrices)
     u[:, :, 2] *= np.sign(np.linalg.det(u) * np.linalg.det(vt))[:, None]

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geodesics import Mesh, SurfacePoints
-from geodesics.topology import vertex_components
-from gmds.deformations.extremities import edge_distances
+from geodesics.arrays import Integers
+from geodesics.topology.components import vertex_components
+from gmds.deformations.limbs import edge_distances
 
 
 def holes(mesh: Mesh, count: int = 5, *, radius: float = 0.05, rng: int = 0) -> tuple[Mesh, SurfacePoints]:
@@ -36,7 +36,7 @@ def holes(mesh: Mesh, count: int = 5, *, radius: float = 0.05, rng: int = 0) -> 
     return result, SurfacePoints(result, face, barycentric)
 
 
-def _without_bow_ties(faces: NDArray[np.int64], before: NDArray[np.int64]) -> NDArray[np.int64]:
+def _without_bow_ties(faces: Integers, before: Integers) -> Integers:
     """The faces without those at vertices where sheets meet now and did not before."""
     import igl
 

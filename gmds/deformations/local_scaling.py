@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from geodesics import Mesh, SurfacePoints
-from geodesics.curvature import one_ring_areas
+from geodesics.arrays import Floats
 from geodesics.errors import BadShape
-from gmds.deformations.extremities import edge_distances, extremities
+from geodesics.one_ring import one_ring_areas
 from gmds.deformations.fitting import fit
+from gmds.deformations.limbs import edge_distances, extremities
 from gmds.deformations.truths import moved
-
-Array = NDArray[np.float64]
 
 
 def local_scaling(mesh: Mesh, log_scale: ArrayLike) -> tuple[Mesh, SurfacePoints]:
@@ -33,7 +32,7 @@ def local_scaling(mesh: Mesh, log_scale: ArrayLike) -> tuple[Mesh, SurfacePoints
     return moved(mesh, centre + np.exp(base) * (shape - centre))
 
 
-def achieved_log_scale(before: Mesh, after: Mesh) -> Array:
+def achieved_log_scale(before: Mesh, after: Mesh) -> Floats:
     """Half the logarithm of the growth of the area around each vertex (n,), for meshes with the same faces.
 
     Raises `BadShape` when the faces differ.
@@ -43,7 +42,7 @@ def achieved_log_scale(before: Mesh, after: Mesh) -> Array:
     return 0.5 * np.log(one_ring_areas(after) / one_ring_areas(before))
 
 
-def branch_log_scale(mesh: Mesh, factor: float, *, count: int = 2, reach: float = 0.5, rng: int = 0) -> Array:
+def branch_log_scale(mesh: Mesh, factor: float, *, count: int = 2, reach: float = 0.5, rng: int = 0) -> Floats:
     """A smooth field u (n,): `count` extremities grow by `factor`, every second shrinks by it.
 
     The field falls from its full value at an extremity to zero over `reach` times the distance to the middle of the

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geodesics import Mesh, SurfacePoints
+from geodesics.arrays import Integers
 from geodesics.errors import NotManifold
+from geodesics.repair.triangulation import collapse
 from gmds.deformations.noise import mean_edge_length
-from gmds.triangulation import collapse
 
 
 def remeshing(
@@ -54,7 +54,7 @@ def remeshing(
     return result, SurfacePoints.closest(result, mesh.vertices)
 
 
-def _manifold(faces: NDArray[np.int64]) -> bool:
+def _manifold(faces: Integers) -> bool:
     import igl
 
     return bool(igl.is_edge_manifold(faces)[0] and np.all(igl.is_vertex_manifold(faces)))

@@ -5,18 +5,16 @@ from __future__ import annotations
 import itertools
 
 import numpy as np
-from numpy.typing import NDArray
 
-from gmds.upsampling import SampledPair
-
-Index = NDArray[np.int64]
+from geodesics.arrays import Integers
+from gmds.spectral.sample_maps import SampledPair
 
 FUNCTIONS = 5  # whose signs are tried
 CLOSE = 0.25  # relative gap below which two eigenvalues may have changed places
 MOST_ORDERS = 4
 
 
-def eigenfunction_signs(pair: SampledPair) -> list[Index]:
+def eigenfunction_signs(pair: SampledPair) -> list[Integers]:
     """One sample map for every choice of signs of the first five eigenfunctions, and of order where they are close.
 
     The functional map of an isometry is a signed permutation where eigenvalues are simple (Mateus et al. 2008).

@@ -5,15 +5,12 @@ from __future__ import annotations
 import itertools
 
 import numpy as np
-from numpy.typing import NDArray
 
+from geodesics.arrays import Floats, Integers
 from geodesics.euclidean import euclidean_distances
-from gmds.functional_maps import nearest_rows
-from gmds.surface import View
-from gmds.upsampling import SampledPair
-
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
+from gmds.spectral.functional_maps import nearest_rows
+from gmds.spectral.sample_maps import SampledPair
+from gmds.surface.view import View
 
 MOST = 7  # extremities of a surface: 7! assignments are still quick to score
 BEST = 32  # assignments kept
@@ -21,7 +18,7 @@ RINGS = 3  # around a local maximum
 APART = 0.3  # of the largest distance from the centre
 
 
-def extremities(pair: SampledPair) -> list[Index]:
+def extremities(pair: SampledPair) -> list[Integers]:
     """Sample maps by trilateration from assigned extremities, for the 32 assignments that distort distances least."""
     ours, theirs = surface_extremities(pair.source), surface_extremities(pair.target)
     if min(len(ours), len(theirs)) < 3:
@@ -35,14 +32,14 @@ def extremities(pair: SampledPair) -> list[Index]:
     return [trilaterated(pair, *both) for both in assigned]
 
 
-def trilaterated(pair: SampledPair, ours: Index, theirs: Index) -> Index:
+def trilaterated(pair: SampledPair, ours: Integers, theirs: Integers) -> Integers:
     """Each sample goes where its distances to the vertices `ours` (l,) are those to `theirs` (l,) on the target."""
     queries = euclidean_distances(pair.source.embedding[pair.source_samples], pair.source.embedding[ours])
     rows = euclidean_distances(pair.target.embedding[pair.target_samples], pair.target.embedding[theirs])
     return nearest_rows(queries, rows)
 
 
-def surface_extremities(view: View) -> Index:
+def surface_extremities(view: View) -> Integers:
     """Vertices farther from all others, in mean squared commute-time distance, than those around them; at most seven.
 
     As the embedding is centred, the mean squared distance from x is |e(x)|^2 and a constant.
@@ -63,7 +60,7 @@ def surface_extremities(view: View) -> Index:
     return np.array(kept[:MOST], dtype=np.int64)
 
 
-def _assignments(few: Array, many: Array) -> Index:
+def _assignments(few: Floats, many: Floats) -> Integers:
     """The 32 injective assignments (32, l) of l points to more whose mutual distances agree best."""
     all_of_them = np.array(list(itertools.permutations(range(len(many)), len(few))))
     i, j = np.triu_indices(len(few), 1)

@@ -6,21 +6,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geodesics import Mesh, Spectrum
+from geodesics.arrays import Floats
 from gmds.retrieval.descriptors import Described, Descriptor, described
 from gmds.retrieval.vocabulary import Vocabulary, learn_vocabulary
 
-Array = NDArray[np.float64]
 
-
-def bag(assignment: Array, mass: Array) -> Array:
+def bag(assignment: Floats, mass: Floats) -> Floats:
     """Bag of features (Table 1): the mean of theta(x) (n, words) over the surface, by area: (words,), sums to 1."""
     return mass @ assignment / mass.sum()
 
 
-def pair_bag(assignment: Array, spectrum: Spectrum, time: float) -> Array:
+def pair_bag(assignment: Floats, spectrum: Spectrum, time: float) -> Floats:
     """Spatially sensitive bag: the mean of theta_i(x) h_t(x, y) theta_j(y) over x, by area: (words, words), sums to 1.
 
     Words near one another by the heat kernel h_t of sec. 3, `time` in units of the area (Bronstein, Bronstein, Guibas,
@@ -42,11 +40,11 @@ class BagOfFeatures:
     descriptors: tuple[Descriptor, ...]
     vocabularies: tuple[Vocabulary, ...]
 
-    def __call__(self, mesh: Mesh) -> Array:
+    def __call__(self, mesh: Mesh) -> Floats:
         """The bag of a mesh. Raises `MeshError` or `EigensolverFailed` where a metric cannot be measured."""
         return self.of(described(mesh, self.descriptors))
 
-    def of(self, parts: Sequence[Described]) -> Array:
+    def of(self, parts: Sequence[Described]) -> Floats:
         """The bag of a mesh from what the descriptors say of it."""
         found = [bag(v.assign(part.values), part.mass) for v, part in zip(self.vocabularies, parts, strict=True)]
         return np.concatenate(found) / len(found)

@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geodesics import (
     Mesh,
@@ -18,9 +17,8 @@ from geodesics import (
     scale_invariant,
     scale_invariant_heat_kernel_signature,
 )
+from geodesics.arrays import Floats
 from gmds.retrieval.mending import mended
-
-Array = NDArray[np.float64]
 
 EIGENPAIRS = 120
 # chosen on half of the classes of examples/paper/table1_retrieval.py; times in units of the area
@@ -35,15 +33,15 @@ class Descriptor:
 
     name: str
     metric: Callable[[Mesh], Metric]
-    signature: Callable[[Spectrum], Array]
+    signature: Callable[[Spectrum], Floats]
 
 
 @dataclass(frozen=True, eq=False)
 class Described:
     """The signature (n, k) of every vertex and the area (n,) that it stands for, in one metric."""
 
-    values: Array
-    mass: Array
+    values: Floats
+    mass: Floats
 
 
 def described(mesh: Mesh, descriptors: Sequence[Descriptor], *, mend: bool = True) -> tuple[Described, ...]:
@@ -57,7 +55,7 @@ def described(mesh: Mesh, descriptors: Sequence[Descriptor], *, mend: bool = Tru
     return tuple(Described(d.signature(spectra[d.metric]), spectra[d.metric].mass) for d in descriptors)
 
 
-def log_heat(spectrum: Spectrum) -> Array:
+def log_heat(spectrum: Spectrum) -> Floats:
     """log(area HKS(s, t)) of (5.1) at `HEAT_TIMES`: (n, number of times), no unit."""
     result = np.zeros((len(spectrum.mass), len(HEAT_TIMES)))
     used = spectrum.mass > 0
@@ -65,7 +63,7 @@ def log_heat(spectrum: Spectrum) -> Array:
     return result
 
 
-def heat_frequencies(spectrum: Spectrum) -> Array:
+def heat_frequencies(spectrum: Spectrum) -> Floats:
     """The scale-invariant heat-kernel signature (footnote 1) over the times LOG_TIMES: (n, FREQUENCIES), no unit."""
     return scale_invariant_heat_kernel_signature(spectrum, LOG_TIMES, FREQUENCIES)
 

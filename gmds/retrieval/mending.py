@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 
 from geodesics import Mesh
-from geodesics.topology import vertex_components
-
-Array = NDArray[np.float64]
+from geodesics.arrays import Floats, Integers
+from geodesics.topology.components import vertex_components
 
 LARGEST_HOLE = 0.5  # perimeter, in units of sqrt(area): what is longer is the edge of the surface
 SPIKE = 0.75  # how far a vertex is from the middle of its neighbours, in units of their r.m.s. distance from it
@@ -107,7 +105,7 @@ def _mean_of_neighbours(mesh: Mesh) -> sp.csr_matrix:
     return (sp.diags(1 / np.asarray(graph.sum(axis=1)).ravel()) @ graph).tocsr()
 
 
-def _loops(mesh: Mesh) -> list[NDArray[np.int64]]:
+def _loops(mesh: Mesh) -> list[Integers]:
     """The boundary as closed loops of vertices in the direction of their faces; only those without a crossing."""
     start, end = mesh.faces[:, [0, 1, 2]].ravel(), mesh.faces[:, [1, 2, 0]].ravel()
     key = np.minimum(start, end) * mesh.n_vertices + np.maximum(start, end)
@@ -131,5 +129,5 @@ def _loops(mesh: Mesh) -> list[NDArray[np.int64]]:
     return loops
 
 
-def _perimeter(loop: Array) -> float:
+def _perimeter(loop: Floats) -> float:
     return float(np.linalg.norm(loop - np.roll(loop, -1, axis=0), axis=1).sum())

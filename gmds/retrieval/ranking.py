@@ -6,13 +6,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from geodesics import Mesh
+from geodesics.arrays import Floats, Integers
 from gmds.retrieval.bags import learned
 from gmds.retrieval.descriptors import DEFAULT, described
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,8 +21,8 @@ class Ranking:
     Distances are from 0 to 2: twice the share of the surface that says different words.
     """
 
-    order: NDArray[np.int64]
-    distances: Array
+    order: Integers
+    distances: Floats
 
 
 def retrieve(query: Mesh, collection: Sequence[Mesh], features: Callable[[Mesh], ArrayLike] | None = None) -> Ranking:
@@ -42,14 +41,14 @@ def retrieve(query: Mesh, collection: Sequence[Mesh], features: Callable[[Mesh],
     return ranking(vectors[0], vectors[1:])
 
 
-def ranking(query: Array, collection: Sequence[Array]) -> Ranking:
+def ranking(query: Floats, collection: Sequence[Floats]) -> Ranking:
     """Vectors of a collection ranked by their L1 distance to that of the query."""
     distances = bag_distances([query], collection)[0]
     order = np.argsort(distances, kind="stable")
     return Ranking(order, distances[order])
 
 
-def bag_distances(first: Sequence[Array], second: Sequence[Array]) -> Array:
+def bag_distances(first: Sequence[Floats], second: Sequence[Floats]) -> Floats:
     """|f - g|_1 for bags f of the first and g of the second list: (len(first), len(second))."""
     if len(first) == 0 or len(second) == 0:
         return np.zeros((len(first), len(second)))

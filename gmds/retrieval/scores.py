@@ -6,7 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from geodesics.arrays import Bools
 
 
 @dataclass(frozen=True)
@@ -43,7 +45,7 @@ def retrieval_scores(
     return RetrievalScores(float(nearest), float(tier), float(precision), len(judged))
 
 
-def _judge(relevant: NDArray[np.bool_]) -> tuple[float, float, float]:
+def _judge(relevant: Bools) -> tuple[float, float, float]:
     """Nearest neighbour, first tier and average precision of one ranking, each from 0 to 1."""
     found = np.flatnonzero(relevant)
     precision = np.arange(1, len(found) + 1) / (found + 1)

@@ -6,9 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from geodesics.arrays import Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -18,12 +17,12 @@ class Vocabulary:
     Softness 0 gives every point to its nearest word alone (equally, where several are as near).
     """
 
-    words: Array
-    mean: Array
-    spread: Array
+    words: Floats
+    mean: Floats
+    spread: Floats
     softness: float
 
-    def assign(self, descriptors: Array) -> Array:
+    def assign(self, descriptors: Floats) -> Floats:
         """Soft vector quantisation theta_i(x) ~ exp(-|p(x) - w_i|^2 / (2 softness^2)), rows sum to 1: (n, words).
 
         For Table 1, as in Bronstein, Bronstein, Guibas, Ovsjanikov 2011 (ShapeGoogle).
@@ -36,7 +35,7 @@ class Vocabulary:
 
 
 def learn_vocabulary(
-    samples: Sequence[tuple[Array, Array]],
+    samples: Sequence[tuple[Floats, Floats]],
     n_words: int = 48,
     *,
     softness: float = 1.0,
@@ -61,7 +60,7 @@ def learn_vocabulary(
     return Vocabulary(words, mean, spread, softness * _spacing(words))
 
 
-def k_means(points: Array, count: int, random: np.random.Generator, iterations: int = 50) -> Array:
+def k_means(points: Floats, count: int, random: np.random.Generator, iterations: int = 50) -> Floats:
     """Up to `count` centres (c, k) of clusters of points (n, k): Lloyd's iteration from a k-means++ start.
 
     Each start is a point drawn with probability proportional to its squared distance from those before. There are
@@ -85,13 +84,13 @@ def k_means(points: Array, count: int, random: np.random.Generator, iterations: 
     return centres
 
 
-def _squared_distances(points: Array, centres: Array) -> Array:
+def _squared_distances(points: Floats, centres: Floats) -> Floats:
     """|p - c|^2 of points (n, k) and centres (c, k): (n, c)."""
     squared = (points**2).sum(axis=1)[:, None] - 2 * points @ centres.T + (centres**2).sum(axis=1)
     return np.maximum(squared, 0)
 
 
-def _spacing(words: Array) -> float:
+def _spacing(words: Floats) -> float:
     """The median distance from a word to its nearest other word; 1 where there is one word."""
     if len(words) == 1:
         return 1.0

@@ -6,18 +6,19 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from geodesics import Mesh, SurfacePoints
+from geodesics.arrays import Floats
+from geodesics.repair.triangulation import collapse
+from gmds.shapes.marching_cubes import fine_surface
 from gmds.shapes.skeleton import Body, Move
-from gmds.shapes.surface import fine_surface
-from gmds.triangulation import collapse
 
 
 class Figure(Mesh):
     """A `Mesh` with `rest` (n, 3), the places of its vertices on the undeformed body they share with other figures."""
 
-    rest: NDArray[np.float64]
+    rest: Floats
 
     def __init__(self, vertices: ArrayLike, faces: ArrayLike, rest: ArrayLike) -> None:
         super().__init__(vertices, faces)

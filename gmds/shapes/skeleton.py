@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from gmds.shapes.implicit import Array, Part, Point, distances, project
+from geodesics.arrays import Bools, Floats
+from gmds.shapes.implicit import Part, Point, distances, project
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Body:
     skin_width: float
 
     @cached_property
-    def branches(self) -> NDArray[np.bool_]:
+    def branches(self) -> Bools:
         """Whether part j hangs on joint i or on one below it, shape (joints, parts)."""
         index = {joint.name: i for i, joint in enumerate(self.joints)}
         member = np.zeros((len(self.joints), len(self.parts)), dtype=bool)
@@ -51,17 +51,17 @@ class Body:
                 name = self.joints[index[name]].parent
         return member
 
-    def project(self, x: Array) -> Array:
+    def project(self, x: Floats) -> Floats:
         """Points (p, 3) near the undeformed surface moved onto it."""
         return project(self.parts, x, self.blend_width)
 
-    def membership(self, x: Array) -> Array:
+    def membership(self, x: Floats) -> Floats:
         """How much points (p, 3) belong to each joint's branch, in [0, 1], shape (joints, p)."""
         d = distances(self.parts, x)
         weight = np.exp((d.min(axis=0) - d) / self.skin_width)
         return self.branches @ (weight / weight.sum(axis=0))
 
-    def pose(self, x: Array, moves: Mapping[str, Move]) -> Array:
+    def pose(self, x: Floats, moves: Mapping[str, Move]) -> Floats:
         """Points (p, 3) of the undeformed body after the moves, outermost joints first.
 
         With membership w in a joint's branch a point turns by w times the joint's rotation vector and grows by

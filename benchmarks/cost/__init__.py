@@ -1,0 +1,1 @@
+"""Seconds and memory of matching, of the page, of starting."""

@@ -1,0 +1,1 @@
+"""Inputs that break programs, given to gmds and to seven libraries."""

@@ -1,0 +1,1 @@
+"""Damaged files and transformed meshes without number."""

@@ -1,0 +1,1 @@
+"""Small faults put into the code: do the tests notice?"""

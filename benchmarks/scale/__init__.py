@@ -1,0 +1,1 @@
+"""Large meshes, against named peers."""

@@ -1,0 +1,116 @@
+"""Geodesic distance in any metric, by fast marching."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from geodesics._kernels import marching
+from geodesics.arrays import Floats, Integers
+from geodesics.distance import FEWER_POINTS
+from geodesics.fast_marching.front import corners, fresh_front, longest_edges
+from geodesics.fast_marching.seeds import seeds
+from geodesics.memory import table
+from geodesics.mesh import Mesh
+from geodesics.metric import Metric
+from geodesics.points import SurfacePoints
+
+
+@dataclass(frozen=True, eq=False)
+class GeodesicDistance:
+    """Geodesic distance in a metric, by fast marching (Kimmel, Sethian 1998) with unfolded sources.
+
+    With the scale-invariant metric these are the scale invariant geodesics of the abstract.
+    A conformal metric is marched over the intrinsic Delaunay triangulation of the embedded one, whose angles it
+    shares; any other metric over the mesh's own faces. At most `threads` sources are marched at once; the numbers do
+    not depend on it.
+    """
+
+    metric: Metric
+    threads: int = 2
+
+    @property
+    def mesh(self) -> Mesh:
+        """The mesh at whose vertices distances are given."""
+        return self.metric.mesh
+
+    def field(self, points: SurfacePoints, *, limit: float = np.inf) -> Floats:
+        """Distances (p, n) from each of p points to every vertex; +inf where unreachable or farther than `limit`.
+
+        Raises `WouldExceedMemory` (E501) when the table does not fit.
+        """
+        out = table(len(points), self.mesh.n_vertices, "distances", FEWER_POINTS)
+        around = seeds(self.metric, points)
+        out[:] = np.inf
+        until = _until(self.metric, limit=limit)
+
+        def march(chunk: range) -> None:
+            front = fresh_front(self.metric)
+            for i in chunk:
+                marching.begin(front, around.vertices[i], around.spokes[i], 0.0)
+                marching.march(corners(self.metric), front, until)
+                marching.finish(front, out[i])
+
+        workers = max(1, min(self.threads, os.cpu_count() or 1, len(points)))
+        chunks = [range(k, len(points), workers) for k in range(workers)]
+        if workers == 1:
+            march(chunks[0])
+        else:
+            with ThreadPoolExecutor(workers) as pool:
+                list(pool.map(march, chunks))
+        return out
+
+    def to_set(
+        self,
+        points: SurfacePoints,
+        *,
+        values: ArrayLike | None = None,
+        stop: ArrayLike | None = None,
+        limit: float = np.inf,
+    ) -> Floats:
+        """Distances (n,) to the nearest of the points: min over i of values[i] + d(points[i], x), values 0 by default.
+
+        The front stops at distance `limit`, and when it has passed all the vertices in `stop`; what it did not reach
+        is +inf. Raises `ValueError` unless there is one finite value a point.
+        """
+        start = np.zeros(len(points)) if values is None else np.array(values, dtype=np.float64)
+        if start.shape != (len(points),) or not np.isfinite(start).all():
+            raise ValueError(f"values must be {len(points)} finite numbers, one a point")
+        wanted = None if stop is None else np.asarray(stop, dtype=np.int64).reshape(-1)
+        front, around, out = fresh_front(self.metric), seeds(self.metric, points), np.full(self.mesh.n_vertices, np.inf)
+        for i in range(len(points)):
+            marching.begin(front, around.vertices[i], around.spokes[i], start[i])
+        marching.march(corners(self.metric), front, _until(self.metric, limit=limit, wanted=wanted))
+        marching.finish(front, out)
+        return out
+
+    def spreader(self) -> Callable[[int, Floats], tuple[Integers, Floats]]:
+        """A function (vertex, nearest (n,)) -> the vertices closer to this one than `nearest`, and their distances.
+
+        Its front stops a little way into what is nearer to others, so that the cells of all samples together cost no
+        more than a few fields.
+        """
+        front, at_vertex = fresh_front(self.metric), np.array([[0.0, np.nan]])
+        until = _until(self.metric)
+
+        def closer(vertex: int, nearest: Floats) -> tuple[Integers, Floats]:
+            marching.begin(front, np.array([vertex]), at_vertex, 0.0)
+            marching.march(corners(self.metric), front, until._replace(nearest=nearest))
+            return marching.finish_closer(front, nearest)  # type: ignore[no-any-return]
+
+        return closer
+
+
+def _until(metric: Metric, *, limit: float = np.inf, wanted: Integers | None = None) -> marching.Until:
+    """Where a front stops, as the kernel wants it."""
+    n = metric.mesh.n_vertices
+    marks = np.zeros(n, dtype=bool)
+    if wanted is not None:
+        marks[wanted] = True
+    margin = longest_edges(metric).max(where=marks, initial=0.0)
+    return marching.Until(np.full(n, np.inf), marks, int(marks.sum()), float(limit), float(margin))

@@ -1,0 +1,1 @@
+"""Eigenpairs and factorisations of large sparse matrices."""

@@ -1,0 +1,76 @@
+"""Factorisation of sparse symmetric positive definite matrices."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.sparse as sp
+import scipy.sparse.linalg as sla
+
+from geodesics._kernels.substitution import WIDTH, Triangle, substitute
+from geodesics.arrays import Floats
+from geodesics.linalg.dissection import nested_dissection
+
+LARGE = 200_000
+"""Rows from which nested dissection saves more time than it takes."""
+
+
+class Factors:
+    """A solved system: `solve(b)` gives A^-1 b. Above 200,000 rows A is put in the order of nested dissection first."""
+
+    def __init__(self, matrix: sp.spmatrix) -> None:
+        n = matrix.shape[0]
+        self.order = nested_dissection(matrix) if n >= LARGE else np.arange(n)
+        if n >= LARGE:
+            matrix = matrix.tocsr()[self.order][:, self.order]
+        self.lu = sla.splu(
+            matrix.tocsc(),
+            permc_spec="NATURAL" if n >= LARGE else "MMD_AT_PLUS_A",
+            diag_pivot_thresh=0.0,
+            options={"SymmetricMode": True},
+        )
+
+    def solve(self, right: Floats) -> Floats:
+        """A^-1 right, (n,) or (n, k)."""
+        solved = np.empty(right.shape)
+        solved[self.order] = self.lu.solve(right[self.order])
+        return solved
+
+
+def factorised(matrix: sp.spmatrix) -> Factors:
+    """LU factors of a symmetric positive definite matrix in symmetric mode: half the fill of the general ordering.
+
+    Where rounding leaves a matrix with stiff parts (vertices that all but coincide) singular, its diagonal is raised
+    by 1e-14 of itself. Raises `RuntimeError` when that is not enough.
+    """
+    try:
+        return Factors(matrix)
+    except RuntimeError:
+        return Factors(matrix + 1e-14 * sp.diags(matrix.diagonal()))
+
+
+class Inverse:
+    """The inverse of a symmetric matrix from its factors, applied to many right-hand sides: twice as fast as SuperLU.
+
+    With Pr A Pc = L U and A symmetric, A x = b is U^T L^T Pr x = Pc^T b.
+    """
+
+    def __init__(self, factors: Factors) -> None:
+        lower, upper = factors.lu.L, factors.lu.U
+        for triangle in (lower, upper):
+            triangle.sort_indices()
+        self._upper = Triangle(upper.indptr, upper.indices, upper.data)
+        self._lower = Triangle(lower.indptr, lower.indices, lower.data)
+        self._from = factors.order[np.argsort(factors.lu.perm_c)]
+        self._to = factors.lu.perm_r[np.argsort(factors.order)]
+
+    def solve(self, block: Floats) -> Floats:
+        """A^-1 block (n, k), in Fortran order."""
+        out = np.empty(block.shape, order="F")
+        for k in range(0, block.shape[1], WIDTH):
+            part = block[:, k : k + WIDTH]
+            work = np.zeros((len(part), WIDTH))
+            work[:, : part.shape[1]] = part
+            work = work[self._from]
+            substitute(self._upper, self._lower, work)
+            out[:, k : k + WIDTH] = work[self._to][:, : part.shape[1]]
+        return out

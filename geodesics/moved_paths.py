@@ -1,0 +1,68 @@
+"""Modules that moved in 0.1: their old paths work for one release, with a DeprecationWarning that names the new one."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from importlib.abc import Loader, MetaPathFinder
+from importlib.machinery import ModuleSpec
+from types import ModuleType
+from typing import Any
+
+MOVED: Mapping[str, tuple[str, ...]] = {
+    "geodesics.dissection": ("geodesics.linalg.dissection",),
+    "geodesics.edges": ("geodesics.topology.edges",),
+    "geodesics.fast_marching": ("geodesics.fast_marching.distance",),
+    "geodesics.invariants": ("geodesics.topology.invariants",),
+    "geodesics.krylov": ("geodesics.linalg.krylov",),
+    "geodesics.lanczos": ("geodesics.linalg.lanczos",),
+    "geodesics.orientation": ("geodesics.topology.orientation",),
+    "geodesics.repair": (
+        "geodesics.repair.repairing",
+        "geodesics.repair.decimation",
+        "geodesics.repair.remeshing",
+    ),
+    "geodesics.splitting": ("geodesics.repair.splitting",),
+    "geodesics.topology": ("geodesics.topology.components",),
+}
+
+
+class MovedModules(MetaPathFinder, Loader):
+    """Finds modules by their old paths; each hands out what is now in the modules of the new ones."""
+
+    def __init__(self, moved: Mapping[str, tuple[str, ...]]) -> None:
+        self.moved = moved
+
+    def find_spec(
+        self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        """Asked after all other finders: only for what is nowhere else."""
+        return ModuleSpec(fullname, self, is_package=True) if fullname in self.moved else None
+
+    def create_module(self, spec: ModuleSpec) -> None:
+        """An empty module, as usual."""
+
+    def exec_module(self, module: ModuleType) -> None:
+        """Names are looked up in the new modules when they are asked for."""
+        module.__getattr__ = names_moved(module.__name__, self.moved[module.__name__])  # type: ignore[method-assign]
+
+
+def names_moved(old: str, new: tuple[str, ...]) -> Callable[[str], Any]:
+    """A module's `__getattr__` that finds, with a DeprecationWarning, what was in `old` in the modules `new`."""
+
+    def found(name: str) -> Any:
+        for place in () if name.startswith("__") else new:
+            module = importlib.import_module(place)
+            if hasattr(module, name):
+                warnings.warn(f"{old}.{name} is now {place}.{name}", DeprecationWarning, stacklevel=2)
+                return getattr(module, name)
+        raise AttributeError(f"module {old!r} has no attribute {name!r}")
+
+    return found
+
+
+def keep_old_paths(moved: Mapping[str, tuple[str, ...]]) -> None:
+    """Make the old paths importable."""
+    sys.meta_path.append(MovedModules(moved))

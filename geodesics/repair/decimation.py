@@ -1,0 +1,89 @@
+"""A coarser mesh of the same surface."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geodesics.arrays import Floats, Integers
+from geodesics.errors import NotManifold
+from geodesics.mesh import Mesh
+from geodesics.repair.repairing import Repaired, inverse_index, repair
+from geodesics.topology.edges import edges, proper_faces
+
+
+def decimate(mesh: Mesh, n_faces: int) -> Repaired:
+    """A coarser mesh of about `n_faces` faces by quadric edge collapses (Garland and Heckbert 1997, through libigl).
+
+    `vertex` and `face` are the vertex and face of the old mesh from which each new one descends. Raises `NotManifold`
+    (E110) for edges of more than two faces, and `ValueError` when `n_faces` is not from 4 to the number of faces.
+    """
+    import igl
+
+    if not 4 <= n_faces <= mesh.n_faces:
+        raise ValueError(f"n_faces must be from 4 to the {mesh.n_faces} of the mesh, not {n_faces}")
+    start = repair(mesh)
+    _refuse_branching(start.mesh)
+    center, size = _frame(start.mesh)
+    v = (start.mesh.vertices - center) / size  # a unit-sized copy: quadrics do not underflow at any scale
+    u, g, face, vertex = igl.qslim(v, start.mesh.faces.astype(np.int32), int(n_faces), False)
+    vertex, face = start.vertex[vertex], start.face[face]
+    back = inverse_index(vertex, mesh.n_vertices), inverse_index(face, mesh.n_faces)
+    return Repaired(Mesh(u * size + center, g), vertex, face, start.notes, *back)
+
+
+def _frame(mesh: Mesh) -> tuple[Floats, float]:
+    """Center and size of the vertices that lie on faces."""
+    used = mesh.vertices[np.unique(mesh.faces)]
+    return used.mean(axis=0), float(np.ptp(used, axis=0).max())
+
+
+def _refuse_branching(mesh: Mesh) -> None:
+    table = edges(mesh)
+    many = np.flatnonzero(table.n_faces > 2)
+    if len(many):
+        ends = table.ends[many[0]].tolist()
+        raise NotManifold(f"{len(many)} edges have more than two faces, first between vertices {ends}; repair the mesh")
+
+
+def decimated(mesh: Mesh, n_faces: int) -> Mesh | None:
+    """A mesh of about `n_faces` faces, by collapsing edges; None if it has few more, or that can not be done."""
+    import igl
+
+    used, faces = np.unique(mesh.faces[proper_faces(mesh.faces)], return_inverse=True)
+    faces = faces.reshape(-1, 3).astype(np.int64)
+    if len(faces) <= n_faces * 1.25 or not _can_be_collapsed(faces):
+        return None
+    v, f, *_ = igl.decimate(np.ascontiguousarray(mesh.vertices[used]), faces, n_faces)
+    return None if len(f) == 0 or len(f) > 2 * n_faces else Mesh(v, np.asarray(f, dtype=np.int64))
+
+
+def _can_be_collapsed(faces: Integers) -> bool:
+    """Whether faces (m, 3) are a manifold with two sides: on others libigl takes all memory or ends the process."""
+    import igl
+
+    directed = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    one_way = len(np.unique(directed, axis=0)) == len(directed)  # so that no edge has more than two faces
+    return bool(one_way and np.all(igl.is_vertex_manifold(faces)))
+
+
+def clustered(mesh: Mesh, n_vertices: int) -> Mesh:
+    """The mesh with all vertices in a cell of a grid made one, whatever its defects: at most about `n_vertices`."""
+    used = np.unique(mesh.faces)
+    v = mesh.vertices[used] - mesh.vertices[used].min(axis=0)
+    v /= v.max() or 1.0
+    coarse, fine = 2, 2048
+    while fine - coarse > max(1, coarse // 20):
+        middle = (coarse + fine) // 2
+        few = len(np.unique(_cells(v, middle))) <= n_vertices
+        coarse, fine = (middle, fine) if few else (coarse, middle)
+    _, first, member = np.unique(_cells(v, coarse), return_index=True, return_inverse=True)
+    new = np.empty(mesh.n_vertices, dtype=np.int64)
+    new[used] = member.reshape(-1)
+    faces = new[mesh.faces]
+    proper = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
+    return Mesh(mesh.vertices[used[first]], np.unique(faces[proper], axis=0) if proper.any() else faces[:1])
+
+
+def _cells(v: Floats, finer: int) -> Integers:
+    """The number of the cell of each of the points (n, 3) in [0, 1], in a grid of `finer` cells a side."""
+    return np.minimum((v * finer).astype(np.int64), finer - 1) @ [1, finer, finer * finer]

@@ -1,0 +1,104 @@
+"""Making a better mesh out of one, with the way back: removing defects, decimation, remeshing, closing holes.
+
+`remesh` and `fill_holes` run pymeshlab, which is GPL-3 and therefore an extra (`pip install gmds[repair]`), in a
+process of its own.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from geodesics import intrinsic
+from geodesics.arrays import Bools, Floats, Integers
+from geodesics.check import NAMED, repeated_faces
+from geodesics.errors import Note
+from geodesics.mesh import Mesh
+from geodesics.repair.splitting import split
+from geodesics.topology.components import vertex_components
+from geodesics.topology.edges import degenerate_faces
+from geodesics.topology.orientation import orient_faces
+
+
+class Repaired(NamedTuple):
+    """A new mesh, and the way from the old one and back; `notes` say what changed.
+
+    `vertex` (n,) and `face` (m,) index the old mesh; `new_vertex` and `new_face` say for each vertex and face of the
+    old mesh which new one it became, -1 for none. A vertex that was split became the first of its copies.
+    """
+
+    mesh: Mesh
+    vertex: Integers
+    face: Integers
+    notes: list[Note]
+    new_vertex: Integers
+    new_face: Integers
+
+
+def repair(mesh: Mesh, *, weld: bool = False, cut: bool = False, largest: bool = False) -> Repaired:
+    """Drop repeated and degenerate faces and vertices on no face, orient faces consistently (outward when closed).
+
+    Vertices and faces that stay keep their order; positions do not change. `weld` first joins vertices at exactly
+    equal positions; `cut` takes apart edges of more than two faces and vertices that join several fans, copies of
+    vertices coming last (see `geodesics.repair.splitting.split`); `largest` keeps the component of the largest area
+    only.
+    Raises `MeshError` when nothing is left.
+    """
+    notes: list[Note] = []
+    of_vertex, faces = np.arange(mesh.n_vertices), mesh.faces
+    if weld:
+        _, first, inverse = np.unique(mesh.vertices, axis=0, return_index=True, return_inverse=True)
+        of_vertex = first[inverse.reshape(-1)]
+        faces = of_vertex[faces]
+        _note(notes, "W219", np.flatnonzero(of_vertex != np.arange(mesh.n_vertices)), "vertices welded")
+    kept = np.arange(len(faces))
+    for code, found, sentence in (
+        ("W202", degenerate_faces, "faces that name a vertex twice removed"),
+        ("W201", repeated_faces, "repeated faces removed"),
+    ):
+        bad = found(Mesh(mesh.vertices, faces[kept]))
+        _note(notes, code, kept[bad], sentence)
+        kept = kept[~bad]
+    vertex, clean = _compact(np.arange(mesh.n_vertices), mesh.vertices, faces[kept])
+    _note(notes, "W215", np.setdiff1d(of_vertex, vertex), "vertices on no face removed")
+    if cut:
+        apart, copies = split(clean)
+        doubled = np.unique(vertex[copies[clean.n_vertices :]])
+        _note(notes, "W213", doubled, "vertices doubled where more than two faces or several fans met")
+        vertex, clean = vertex[copies], apart
+    if largest:
+        inside = _largest(clean)
+        _note(notes, "W216", kept[~inside], "faces of other components removed")
+        kept = kept[inside]
+        vertex, clean = _compact(vertex, clean.vertices, clean.faces[inside])
+    oriented = orient_faces(clean)
+    _note(notes, "W204", kept[(oriented.faces != clean.faces).any(axis=1)], "faces turned")
+    new_vertex = inverse_index(vertex, mesh.n_vertices)[of_vertex]
+    return Repaired(oriented, vertex, kept, notes, new_vertex, inverse_index(kept, mesh.n_faces))
+
+
+def inverse_index(index: Integers, n: int) -> Integers:
+    """For each of 0 .. n - 1 where it first stands in `index`, -1 where it does not or `index` is -1: shape (n,)."""
+    place = np.full(n, -1, dtype=np.int64)
+    known = np.flatnonzero(index >= 0)[::-1]
+    place[index[known]] = known
+    return place
+
+
+def _compact(vertex: Integers, positions: Floats, faces: Integers) -> tuple[Integers, Mesh]:
+    """The vertices that faces use, by their names in `vertex`, and the mesh of only these."""
+    used, compact = np.unique(faces, return_inverse=True)
+    return vertex[used], Mesh(positions[used], compact.reshape(-1, 3))
+
+
+def _largest(mesh: Mesh) -> Bools:
+    """Faces (m,) of the component with the largest area."""
+    part = vertex_components(mesh)[mesh.faces[:, 0]]
+    area = intrinsic.areas(intrinsic.squared_lengths(mesh.vertices, mesh.faces))
+    return np.asarray(part == np.bincount(part, weights=area).argmax())
+
+
+def _note(notes: list[Note], code: str, where: Integers, sentence: str) -> None:
+    if len(where):
+        notes.append(Note(code, "info", f"{len(where)} {sentence}", tuple(where[:NAMED].tolist()), len(where)))

@@ -1,0 +1,102 @@
+"""A measured surface on disk: everything about it that takes long to compute, readable with numpy alone.
+
+Members: `original_*`, `mesh_*`: vertices and faces of the mesh, and of its largest part turned and resized;
+`face_index`; for each view (`view0`, `view1`, `view2`) its mass, eigenvalues, eigenfunctions and cells of farthest
+points; `curvature`; `outline_*`: vertices, faces and origin, unless the outline is the whole; `reversing`, if there is
+such a self-map. Numbers keep all their bits: surfaces from files are matched as the meshes are.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics import Mesh, Spectrum
+from geodesics.caching import keep
+from geodesics.io import atomic_write
+from geodesics.sampling import Cells
+from gmds.errors import SurfaceFileError
+from gmds.files.npz import read_npz
+from gmds.matching.pair import outline, reversing
+from gmds.registration.deformable import Geometry
+from gmds.spectral.refinement import CARRIERS, GOALS
+from gmds.spectral.sample_maps import TARGET_SAMPLES
+from gmds.surface.measured import Surface
+from gmds.surface.view import View
+
+VERSION = 2
+
+Arrays = dict[str, NDArray[Any]]
+
+
+def write_surface(path: str | os.PathLike[str], surface: Surface) -> None:
+    """Compute what `match` will want to know of the surface, and write it atomically; raises `OSError`."""
+    with atomic_write(path) as stream:
+        np.savez(stream, **_arrays(surface))  # type: ignore[arg-type]
+
+
+def read_surface(path: str | os.PathLike[str]) -> Surface:
+    """The surface in a file. Raises `SurfaceFileError` (E215) when it is not whole, `OSError` when it is not there."""
+    path = Path(path)
+    try:
+        return _surface(read_npz(path))
+    except (ValueError, KeyError, IndexError, TypeError) as error:
+        raise SurfaceFileError(f"{path} is not a readable surface ({error}); remove it") from error
+
+
+def _arrays(surface: Surface) -> Arrays:
+    found: Arrays = {"version": np.array(VERSION), "face_index": surface.face_index}
+    for name, mesh in (("original", surface.original), ("mesh", surface.mesh)):
+        found |= {f"{name}_vertices": mesh.vertices, f"{name}_faces": mesh.faces}
+    surface.regular.samples(GOALS)
+    surface.regular.cells(CARRIERS)
+    for number, view in enumerate(surface.views):
+        view.samples(TARGET_SAMPLES)
+        found |= _view_arrays(f"view{number}", view)
+    found["curvature"] = surface.squashed_curvature
+    few = outline(surface)
+    if few.mesh is not surface.mesh:
+        found |= {"outline_vertices": few.mesh.vertices, "outline_faces": few.mesh.faces, "outline_origin": few.origin}
+    turned = reversing(surface)
+    return found if turned is None else found | {"reversing": turned}
+
+
+def _view_arrays(name: str, view: View) -> Arrays:
+    spectrum = view.spectrum
+    found = {"mass": spectrum.mass, "values": spectrum.eigenvalues, "functions": spectrum.eigenfunctions}
+    for count, cells in view.sampled.items():
+        found |= {f"{part}_{count}": array for part, array in cells._asdict().items()}
+    return {f"{name}_{part}": array for part, array in found.items()}
+
+
+def _surface(arrays: Arrays) -> Surface:
+    if arrays["version"] != VERSION:
+        raise ValueError(f"version {arrays['version']}, not {VERSION}")
+    original, mesh = (Mesh(arrays[f"{name}_vertices"], arrays[f"{name}_faces"]) for name in ("original", "mesh"))
+    surface = Surface(original, mesh, arrays["face_index"])
+    views = tuple(_view(arrays, f"view{i}", mesh) for i in range(sum(f"view{i}_mass" in arrays for i in range(9))))
+    vars(surface)["views"], vars(surface)["regular"] = views, views[-1]
+    vars(surface)["squashed_curvature"] = arrays["curvature"]
+    keep(outline, surface, _outline(arrays, surface))
+    keep(reversing, surface, arrays.get("reversing"))
+    return surface
+
+
+def _view(arrays: Arrays, name: str, mesh: Mesh) -> View:
+    view = View(mesh, Spectrum(mesh, *(arrays[f"{name}_{part}"] for part in ("mass", "values", "functions"))))
+    start = f"{name}_samples_"
+    for count in sorted(int(key.removeprefix(start)) for key in arrays if key.startswith(start)):
+        view.sampled[count] = Cells(*(arrays[f"{name}_{part}_{count}"] for part in Cells._fields))
+    return view
+
+
+def _outline(arrays: Arrays, surface: Surface) -> Geometry:
+    if "outline_origin" not in arrays:
+        return Geometry.of(surface)
+    origin = arrays["outline_origin"]
+    mesh = Mesh(arrays["outline_vertices"], arrays["outline_faces"])
+    return Geometry(mesh, origin, surface.squashed_curvature[origin])

@@ -1,0 +1,99 @@
+"""gmds distances: from some vertices to all vertices of a mesh."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from gmds.cli.fields import FILE, distance_option, draw, metric_option, output_option, picture_option, write_field
+from gmds.cli.group import Command
+from gmds.cli.output import emit, json_option, progress_bar
+
+if TYPE_CHECKING:
+    from geodesics import Distance
+    from geodesics.arrays import Integers
+
+
+def _starts(_ctx: click.Context, _param: click.Parameter, given: tuple[str, ...]) -> tuple[str, ...]:
+    for text in given:
+        if not re.fullmatch(r"\d{1,18}|farthest:[1-9]\d{0,8}", text, re.ASCII):
+            raise click.BadParameter(f"{text!r} is neither a vertex number (from 0) nor farthest:COUNT")
+    return given
+
+
+@click.command(cls=Command, short_help="Measure distances from vertices to all others.")
+@click.argument("mesh", type=FILE)
+@click.option(
+    "--from",
+    "starts",
+    required=True,
+    multiple=True,
+    callback=_starts,
+    metavar="VERTEX",
+    help="A vertex, numbered from 0, or farthest:COUNT; may be given often.",
+)
+@metric_option
+@distance_option
+@output_option
+@picture_option
+@json_option
+def command(
+    mesh: Path, starts: tuple[str, ...], metric: str, distance: str, output: Path, picture: Path | None, as_json: bool
+) -> None:
+    """Measure distances on MESH from the vertices given by --from to every vertex.
+
+    \b
+      gmds distances dog.ply --from 0 --from 99 -o distances.npz --picture distances.png
+      gmds distances dog.ply --from farthest:10 --metric scale-invariant --distance diffusion -o distances.csv
+
+    farthest:COUNT stands for that many vertices, each the farthest from those before it.
+    A .npz holds `distance`, a row for every vertex given, and `points`, these vertices; a .csv has a line for every
+    vertex of the mesh. What can not be reached is infinitely far. The picture shows the distance to the nearest of the
+    vertices given. Metrics and diffusion time are those of
+    `gmds match --metric --distance`.
+    """
+    import time
+
+    import numpy as np
+
+    from geodesics import SurfacePoints, read_mesh
+    from gmds.cli.choices import ChosenDistance
+
+    surface = read_mesh(mesh)
+    started = time.process_time()
+    numbers = [int(text) for text in starts if text.isdigit()]
+    SurfacePoints.at_vertices(surface, numbers)  # refuses a wrong number before anything is measured
+    with progress_bar("distances"):
+        measured = ChosenDistance(metric, distance)(surface)
+        points = np.concatenate([_vertices(text, measured) for text in starts])
+        field = measured.field(SurfacePoints.at_vertices(surface, points))
+    columns = {f"from_{vertex}": row for vertex, row in zip(points, field, strict=True)}
+    write_field(output, {"distance": field, "points": points}, columns)
+    finite = np.isfinite(field)
+    result: dict[str, Any] = {
+        "file": str(output),
+        "points": points.tolist(),
+        "vertices": surface.n_vertices,
+        "largest": float(field[finite].max(initial=0.0)),
+        "unreachable": int(np.count_nonzero(~finite)),
+        "cpu_seconds": time.process_time() - started,
+    }
+    emit(result, as_json)
+    draw(picture, [(f"{distance} distance, {metric} metric", surface, field.min(axis=0))])
+
+
+def _vertices(text: str, distance: Distance) -> Integers:
+    """The vertices that one --from stands for."""
+    import numpy as np
+
+    from geodesics import farthest_point_sampling
+
+    if text.isdigit():
+        return np.array([int(text)])
+    try:
+        return farthest_point_sampling(distance, int(text.partition(":")[2]))
+    except ValueError as error:
+        raise ValueError(f"--from {text}: {error}") from error

@@ -1,0 +1,82 @@
+"""gmds evaluate: a map against the truth."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from gmds.cli.group import Command
+from gmds.cli.output import emit, json_option
+from gmds.cli.view_options import view_options, write_views
+
+FILE = click.Path(path_type=Path)
+
+
+@click.command(cls=Command, short_help="Judge a map against the truth.")
+@click.argument("map_file", metavar="MAP", type=FILE)
+@click.option("--source", required=True, type=FILE, help="Mesh the map starts on.")
+@click.option("--target", required=True, type=FILE, help="Mesh the map ends on.")
+@click.option("--truth", required=True, type=FILE, help="Where source vertices should go; see above.")
+@click.option("--symmetric-truth", type=FILE, help="The same for the left-right flipped map.")
+@click.option("--source-truth", type=FILE, help="The source's own .vts or .mat file.")
+@click.option("--points", default=125, show_default=True, type=click.IntRange(min=1), help="Truth points to judge on.")
+@view_options
+@json_option
+def command(
+    map_file: Path,
+    source: Path,
+    target: Path,
+    truth: Path,
+    symmetric_truth: Path | None,
+    source_truth: Path | None,
+    points: int,
+    as_json: bool,
+    **shown: Any,
+) -> None:
+    """Judge the map in MAP: geodesic distance from the truth, over the square root of the target's area.
+
+    \b
+      gmds evaluate map.npz --source dog.ply --target wolf.off --truth truth.npz
+
+    Truth files: a .npz with arrays src and gt (source vertices, target vertices, both from 0), and gt_sym if known;
+    another map.npz; a .vts file (one target vertex a line, from 1) with the source's own .vts as --source-truth, or
+    with one line per source vertex; SHREC'20 .mat landmarks of both.
+    """
+    from dataclasses import asdict
+
+    import numpy as np
+
+    from geodesics import read_mesh
+    from gmds import Correspondence
+    from gmds.benchmarking.truth_files import read_truth
+    from gmds.evaluation import coverage, error_curve, geodesic_error, protocol_subset, summary
+
+    meshes = read_mesh(source), read_mesh(target)
+    answer = Correspondence.load(map_file, *meshes)
+    result: dict[str, Any] = {}
+    wanted = {"direct": read_truth(truth, *meshes, source_path=source_truth)}
+    if symmetric_truth is not None:
+        wanted["sym"] = read_truth(symmetric_truth, *meshes, source_path=source_truth)
+    elif truth.suffix.lower() == ".npz":
+        wanted["sym"] = read_truth(truth, *meshes, flipped=True)
+    curve: list[float] = []
+    known = np.full((1, len(answer.valid)), np.nan)
+    for name, found in wanted.items():
+        if found is None:
+            continue
+        indices, true = found
+        chosen = protocol_subset(len(indices), points)
+        errors = geodesic_error(answer, true[chosen], indices[chosen])
+        result[name] = asdict(summary(errors))
+        if name == "direct":
+            curve = error_curve(errors).tolist()
+            known[0, indices[chosen]] = errors
+    result["best"] = min(entry["mean"] for entry in result.values())
+    result["coverage"] = 100 * coverage(answer)
+    result["valid"] = 100 * float(answer.valid.mean())
+    result["curve"] = curve
+    emit(result, as_json)
+    title = f"{map_file.name}: {source.name} → {target.name}"
+    write_views(answer, **shown, errors=known, title=title, names=(source.name, target.name))

@@ -1,0 +1,114 @@
+"""gmds landmarks: landmarks of one mesh on another."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from gmds.cli.group import Command
+from gmds.cli.landmark_options import space_option
+from gmds.cli.output import emit, json_option, note, progress_bar, seed_option
+
+if TYPE_CHECKING:
+    from geodesics import Mesh
+    from gmds import Correspondence
+    from gmds.landmarks.transfer import CarriedLandmarks
+
+from gmds.cli.paths import OutputFile
+
+FILE = click.Path(path_type=Path)
+
+
+@click.command(cls=Command, short_help="Carry landmarks from one mesh to another.")
+@click.argument("source", type=FILE)
+@click.argument("landmarks", type=FILE)
+@click.argument("target", type=FILE)
+@click.option("-o", "--output", required=True, type=OutputFile(), help="Where the landmarks of TARGET go; see above.")
+@click.option("--map", "map_file", type=FILE, help="A map from SOURCE to TARGET; without it they are matched.")
+@space_option
+@seed_option
+@json_option
+def command(
+    source: Path,
+    landmarks: Path,
+    target: Path,
+    output: Path,
+    map_file: Path | None,
+    space: Any,
+    seed: int,
+    as_json: bool,
+) -> None:
+    """Match SOURCE to TARGET and find for every landmark of SOURCE its place on TARGET.
+
+    \b
+      gmds landmarks dog.ply dog.mrk.json wolf.off -o wolf.mrk.json
+      gmds landmarks dog.ply dog.csv wolf.off -o wolf.csv --map map.npz
+
+    \b
+    Landmark files, read and written, by their endings:
+      .csv       name,x,y,z or name,vertex (from 0) a line; written with the columns below
+      .mrk.json  markups of 3D Slicer; the columns below go to the description
+      .fcsv      fiducials of 3D Slicer, likewise
+      .tps .pts  coordinates alone (.pts: with names); .vts: a vertex a line, from 1
+
+    \b
+    For every landmark are told
+      moved       how far it was from the surface of SOURCE, in the units of the mesh
+      confidence  1 - the distortion of the map there, at least 0; a rank for whom to look at first, no probability.
+                  1: distances from it are the same on both surfaces; 0: they differ by as much as their mean
+      valid       whether it has a counterpart; where it has none the confidence is 0 and the place means nothing
+    """
+    from geodesics import read_mesh
+    from gmds.landmarks.checking import place_on
+    from gmds.landmarks.files import ending, read_landmarks, write_landmarks
+    from gmds.landmarks.transfer import carry_landmarks
+
+    as_vertices = ending(output) == ".vts"  # before the matching: a wrong ending should not cost minutes
+    marks = read_landmarks(landmarks, space)
+    meshes = read_mesh(source), read_mesh(target)
+    place_on(marks.at, meshes[0], "source")  # likewise
+    answer = _map(*meshes, map_file, seed)
+    carried = carry_landmarks(answer, marks)
+    columns = {
+        "confidence": [round(float(value), 4) for value in carried.confidence],
+        "valid": carried.valid.astype(int).tolist(),
+    }
+    write_landmarks(output, carried.landmarks(vertices=as_vertices), space, columns)
+    if marks.missing:
+        note(f"{len(marks.missing)} landmarks have no place on the source and are left out: {', '.join(marks.missing)}")
+    rows = _told(carried)
+    summary = {"landmarks": str(output), "status": answer.status.name, "meaning": answer.status.value}
+    emit(
+        {**summary, "carried": rows} if as_json else summary | {f"landmark {row.pop('name')}": row for row in rows},
+        as_json,
+    )
+    lost = [name for name, valid in zip(carried.names, carried.valid, strict=True) if not valid]
+    if lost:
+        note(f"without a counterpart on the target: {', '.join(lost)}")
+
+
+def _map(source: Mesh, target: Mesh, map_file: Path | None, seed: int) -> Correspondence:
+    from gmds import Correspondence, match
+
+    if map_file is not None:
+        return Correspondence.load(map_file, source, target)
+    with progress_bar("match") as progress:
+        return match(source, target, rng=seed, progress=progress)
+
+
+def _told(carried: CarriedLandmarks) -> list[dict[str, Any]]:
+    """What is said of each landmark."""
+    positions, vertices = carried.on_target.positions, carried.on_target.nearest_vertices()
+    return [
+        {
+            "name": name,
+            "position": positions[i].tolist(),
+            "vertex": int(vertices[i]),
+            "moved": float(carried.moved[i]),
+            "confidence": float(carried.confidence[i]),
+            "valid": bool(carried.valid[i]),
+        }
+        for i, name in enumerate(carried.names)
+    ]

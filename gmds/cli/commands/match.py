@@ -1,0 +1,75 @@
+"""gmds match: one pair of meshes, one map."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from gmds.cli.landmark_options import given_landmarks, space_option, tolerance_option
+from gmds.cli.matching_options import matching_arguments, matching_options
+from gmds.cli.output import emit, json_option, note, progress_bar
+from gmds.cli.paths import EndingIn
+from gmds.cli.settings import ConfiguredCommand
+from gmds.cli.view_options import view_options, write_views
+
+FILE = click.Path(path_type=Path)
+MAP = EndingIn(".npz", "")
+
+
+@click.command("match", cls=ConfiguredCommand, short_help="Match two meshes and write the map.")
+@click.argument("source", type=FILE)
+@click.argument("target", type=FILE)
+@click.option("-o", "--output", default="map.npz", show_default=True, type=MAP, help="Where the map goes.")
+@view_options
+@click.option("--landmarks", type=FILE, multiple=True, help="Known points; given once or twice, see above.")
+@space_option
+@tolerance_option
+@matching_options
+@json_option
+def command(source: Path, target: Path, output: Path, as_json: bool, **options: Any) -> None:
+    """Find for every vertex of SOURCE the point of TARGET that corresponds to it, and write the map.
+
+    \b
+      gmds match dog.ply wolf.off -o map.npz --report map.html --picture map.png
+      gmds match dog.ply wolf.off --landmarks dog.csv --landmarks wolf.csv
+
+    Meshes are OFF, OBJ, PLY, STL, GLB or TOSCA .vert/.tri files. The map is a .npz that numpy alone can read.
+
+    Landmarks are one file for both surfaces, with two vertex numbers (from 0), six coordinates, or twice a face and
+    three weights a line, and perhaps a tolerance behind them; or a map, for those it was made with; or, with the option
+    given twice, a file for SOURCE then one for TARGET (.csv, .mrk.json, .fcsv, .tps, .pts, .vts), whose points belong
+    together by name when both have names, else by order.
+    """
+    import time
+
+    from geodesics import read_mesh
+    from gmds import match
+
+    meshes = read_mesh(source), read_mesh(target)
+    known = given_landmarks(options["landmarks"], options["space"], options["tolerance"])
+    started = time.process_time()
+    with progress_bar("match") as progress:
+        answer = match(*meshes, landmarks=known, progress=progress, **matching_arguments(options))
+    seconds = time.process_time() - started
+    for line in answer.meta.get("notes", ()):
+        note(f"gmds: {line}")
+    answer.save(output)
+    emit({"map": str(output), "cpu_seconds": seconds, **described(answer)}, as_json)
+    shown = {name: options[name] for name in ("report", "picture", "up")}
+    write_views(answer, **shown, title=f"{source.name} → {target.name}", names=(source.name, target.name))
+
+
+def described(answer: Any) -> dict[str, Any]:
+    """What can be said of a map without knowing the truth."""
+    import numpy as np
+
+    candidates = [{"stress": float(c.stress), "orientation": float(c.orientation)} for c in answer.candidates]
+    return {
+        "status": answer.status.name,
+        "meaning": answer.status.value,
+        "valid": f"{int(answer.valid.sum())} of {len(answer.valid)}",
+        "median_distortion": float(np.median(answer.distortion)),
+        "candidates": candidates,
+    }

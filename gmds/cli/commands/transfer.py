@@ -1,0 +1,176 @@
+"""gmds transfer: what is on the target of a map, carried to its source."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from gmds.cli.fields import FILE, draw, picture_option, write_field
+from gmds.cli.group import Command
+from gmds.cli.output import emit, json_option, note
+from gmds.cli.paths import EndingIn
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from gmds import Correspondence
+
+
+MESHES = (".obj", ".ply", ".glb", ".vtp")
+KINDS = ("numbers", "labels", "weights", "vectors", "colours")
+TOLD = {
+    "numbers": "by interpolation",
+    "labels": "as labels",
+    "weights": "by interpolation, rows summing to 1",
+    "vectors": "turned as the map turns the surface",
+    "colours": "by interpolation, as colours",
+}
+
+
+@click.command(cls=Command, short_help="Carry values, colours or a texture along a map.")
+@click.argument("map_file", metavar="MAP", type=FILE)
+@click.option("--source", required=True, type=FILE, help="Mesh the map starts on, which gets the values.")
+@click.option("--target", required=True, type=FILE, help="Mesh the map ends on, which has them.")
+@click.option("--values", type=EndingIn(".npy", ".csv", ".txt"), help="A row for every vertex of the target.")
+@click.option("--kind", type=click.Choice(KINDS), help="What the values are.  [default: numbers]")
+@click.option("--labels", is_flag=True, help="The same as --kind labels.")
+@click.option("--texture", type=EndingIn(".png", ".jpg", ".jpeg"), help="Image that an OBJ has coordinates of.")
+@click.option("--look", type=FILE, help="File with colours or texture, when that of the target has none; same faces.")
+@click.option(
+    "-o", "--output", required=True, type=EndingIn(".npy", ".csv", *MESHES), help="Where the carried values go."
+)
+@picture_option
+@json_option
+def command(map_file: Path, source: Path, target: Path, output: Path, as_json: bool, **options: Any) -> None:
+    """Carry what is on the target along the map in MAP, to the source.
+
+    \b
+      gmds transfer map.npz --source dog.ply --target wolf.off --values heights.csv -o carried.csv
+      gmds transfer map.npz --source dog.ply --target wolf.off --values parts.txt --labels -o parts.vtp
+      gmds transfer map.npz --source dog.ply --target wolf.off --values bones.npy --kind weights -o skin.npy
+      gmds transfer map.npz --source dog.ply --target wolf.off --look wolf.glb -o dog.glb
+      gmds transfer map.npz --source dog.ply --target wolf.obj --texture wolf.png -o dog.obj
+
+    \b
+    Values are
+      numbers  interpolated on the triangle where a vertex goes
+      labels   names, numbers or words: a vertex gets the one with the largest weight there, never a mean
+      weights  of bones, a column each: interpolated, rows kept summing to 1
+      vectors  three columns, directions in space: turned as the map turns the surface, lengths kept
+      colours  three or four columns, 0 to 255
+
+    A .npy holds an array with a row for every vertex; text has a line for every vertex, entries with commas (.csv) or
+    blanks (.txt) between them, and perhaps a header, whose first column may be `vertex`, as in the files that gmds
+    writes. Vertices without a counterpart (not valid in the map) get the values at the point that the map holds for
+    them all the same. The picture shows the first column.
+
+    The output is an array (.npy), a table (.csv), or the source with the values on its vertices: .ply and .vtp keep
+    all of them (words by number, which is told), .obj and .glb colours. Without --values the look of the target's file
+    is carried: its vertex colours (.ply, .obj, .glb), or its texture, to an .obj with a .mtl and a .png, or to a .glb.
+    Where the texture is cut, faces whose corners go to different sides take all of it from one side, stretched up to
+    the seam; their number is told.
+    A .glb with a texture is cut open along its seams: weld it (`gmds repair`), match that, and give the .glb to --look.
+    """
+    from geodesics import read_mesh
+    from gmds import Correspondence
+
+    kind = "labels" if options["labels"] else options["kind"] or "numbers"
+    if options["labels"] and options["kind"] not in (None, "labels"):
+        raise click.UsageError("--labels is --kind labels; give one of them")
+    is_mesh = output.suffix.lower() in MESHES
+    if options["values"] is None and not is_mesh:
+        raise click.UsageError(f"give --values, or an output that ends in {', '.join(MESHES)}")
+    meshes = read_mesh(source), read_mesh(target)
+    answer = Correspondence.load(map_file, *meshes)
+    result = {"file": str(output), "vertices": len(answer.points)}
+    if options["values"] is None:
+        if options["kind"] or options["labels"] or options["picture"]:
+            raise click.UsageError("--kind, --labels and --picture are for --values")
+        result |= _carry_look(answer, options["look"] or target, options["texture"], output)
+    else:
+        result |= _carry_values(answer, options["values"], kind, output, options["picture"])
+    emit({**result, "valid": f"{int(answer.valid.sum())} of {len(answer.valid)}"}, as_json)
+
+
+def _carry_look(answer: Correspondence, file: Path, texture: Path | None, output: Path) -> dict[str, Any]:
+    """Colours or texture of a file of the target, to a mesh; what was done."""
+    from gmds.appearance import Look, carry_uv, read_look, write_look
+
+    look = read_look(file, answer.target, texture)
+    if look.uv is not None:
+        uv, across = carry_uv(answer, look.uv)
+        files = write_look(output, answer.source, Look(uv=uv, image=look.image))
+        if look.image is None:
+            note(f"{file} has no image inside; give it with --texture")
+        return {"carried": "texture", "files": [str(file) for file in files], "faces_on_seams": int(across.sum())}
+    if look.colours is None:
+        raise click.UsageError(f"{file} has neither colours nor texture coordinates; give --values")
+    write_look(output, answer.source, Look(colours=answer.transfer(look.colours)))
+    return {"carried": TOLD["colours"]}
+
+
+def _carry_values(answer: Correspondence, file: Path, kind: str, output: Path, picture: Path | None) -> dict[str, Any]:
+    """Values in a file, to a file; what was done."""
+    from gmds.files.values import read_values
+
+    given = read_values(file, answer.target.n_vertices, labels=kind == "labels")
+    if given.dtype.kind in "bU" and kind != "labels":
+        raise click.UsageError(f"{file} holds names ({given.dtype}), not numbers; give --labels to carry them")
+    if given.dtype.kind in "iu" and given.ndim == 1 and kind == "numbers":
+        note("values are whole numbers and get interpolated; --labels carries them as names")
+    if kind == "colours":
+        given = _as_colours(given, file)
+    carried = _carried(answer, given, kind)
+    table = carried.reshape(len(carried), -1)
+    result: dict[str, Any] = {"columns": table.shape[1], "carried": TOLD[kind]}
+    if output.suffix.lower() in MESHES:
+        from gmds.appearance import Look, write_look
+
+        if carried.dtype.kind == "U":  # meshes keep numbers
+            import numpy as np
+
+            words, number = np.unique(carried, return_inverse=True)
+            carried, result["labels"] = number.reshape(carried.shape), words.tolist()
+        look, values = (Look(colours=carried), {}) if kind == "colours" else (Look(), {"value": carried})
+        write_look(output, answer.source, look, values)
+    else:
+        names = ["value"] if table.shape[1] == 1 else [f"value_{i}" for i in range(table.shape[1])]
+        write_field(output, {"values": carried}, dict(zip(names, table.T, strict=True)))
+    labels = kind == "labels"
+    shown = _shown(given.reshape(len(given), -1)[:, 0], table[:, 0], labels=labels)
+    captions = "target, values given", "source, values carried"
+    draw(picture, list(zip(captions, (answer.target, answer.source), shown, strict=True)), labels=labels)
+    return result
+
+
+def _carried(answer: Correspondence, given: NDArray[Any], kind: str) -> NDArray[Any]:
+    if kind == "weights":
+        from gmds.maps.values import carry_weights
+
+        return carry_weights(answer.points, given.reshape(len(given), -1))
+    if kind == "vectors":
+        from gmds.maps.vectors import carry_vectors
+
+        return carry_vectors(answer, given)
+    return answer.transfer(given, labels=kind == "labels")
+
+
+def _as_colours(given: NDArray[Any], file: Path) -> NDArray[np.uint8]:
+    import numpy as np
+
+    if given.ndim != 2 or given.shape[1] not in (3, 4) or not ((given >= 0) & (given <= 255)).all():
+        raise click.UsageError(f"{file}: colours are three or four columns of numbers from 0 to 255")
+    return np.rint(given).astype(np.uint8)
+
+
+def _shown(given: NDArray[Any], carried: NDArray[Any], *, labels: bool) -> tuple[NDArray[np.generic], ...]:
+    """What the picture shows of both: numbers (the real part), or for every label its place among all labels."""
+    import numpy as np
+
+    if not labels:
+        return given.real, carried.real
+    place = np.unique(np.concatenate([given, carried]), return_inverse=True)[1].reshape(-1)
+    return place[: len(given)], place[len(given) :]

@@ -1,0 +1,57 @@
+"""The page and the picture of a map, as commands offer them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import click
+
+from gmds.cli.fields import PICTURES
+from gmds.cli.output import note, tell_written
+from gmds.cli.paths import EndingIn, OutputFile
+
+FILE = click.Path(path_type=Path)
+Y_UP = (".obj", ".glb", ".gltf")  # where the format, or the custom, has y pointing up
+UP = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
+
+report_option = click.option("--report", type=OutputFile(), help="Write a page to turn both surfaces in a browser.")
+picture_option = click.option(
+    "--picture", type=EndingIn(*PICTURES), help="Draw both surfaces: .png, .jpg, .svg or .pdf."
+)
+up_option = click.option(
+    "--up", type=click.Choice(list(UP)), help="Axis of the meshes that is shown as up; y for .obj and .glb, else z."
+)
+
+
+def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The options --report, --picture and --up."""
+    return report_option(picture_option(up_option(command)))
+
+
+def write_views(
+    answer: Any,
+    report: Path | None,
+    picture: Path | None,
+    errors: Any = None,
+    *,
+    title: str,
+    names: tuple[str, str],
+    up: str | None = None,
+) -> None:
+    """The page and the picture that were asked for; each written file is named on stderr.
+
+    `errors`, `title` and `names` are those of `gmds.report.write_report`; the picture shows the errors of the best map.
+    """
+    upwards = UP[up or ("y" if Path(names[0]).suffix.lower() in Y_UP else "z")]
+    if report is not None:
+        from gmds.report.page import write_report
+
+        write_report(report, answer, errors, title=title, names=names, up=upwards)
+        note(f"wrote {report}")
+    if picture is not None:
+        from gmds.pictures.panels import write_picture
+
+        first = None if errors is None else errors[0]
+        tell_written(picture, write_picture(picture, answer, first, title=title, names=names, up=upwards))

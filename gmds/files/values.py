@@ -1,0 +1,102 @@
+"""Values in a file, a row for every vertex of a mesh."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics.arrays import Floats
+from geodesics.errors import FormatError
+from gmds.files.npz import read_npy
+
+KINDS = "biufcU"  # truth values, numbers, words
+
+
+class BadValuesFile(FormatError):
+    """A file of values that can not be read, or that has another number of rows than the mesh has vertices."""
+
+    code = "E307"
+
+
+def read_values(path: Path, count: int, *, labels: bool = False) -> NDArray[Any]:
+    """Values (count,) or (count, k) from a .npy or a text file, .csv with commas or .txt with blanks.
+
+    In text one line more than there are vertices is a header, and a first column that it calls `vertex` counts from 0.
+    Text holds numbers, float64; with `labels` whole numbers, int64, or else words. Raises `BadValuesFile`.
+    """
+    if path.exists() and not path.is_file():
+        raise OSError(f"{path} is not a regular file")
+    values = _array(path) if path.suffix.lower() == ".npy" else _from_text(path, count, labels)
+    if values.ndim == 0 or len(values) != count:
+        rows = "a single value" if values.ndim == 0 else f"{len(values)} rows"
+        raise BadValuesFile(f"{path} has {rows}; the target has {count} vertices and needs one row for each")
+    return values
+
+
+def _array(path: Path) -> NDArray[Any]:
+    try:
+        values = read_npy(path)
+    except ValueError as error:
+        raise BadValuesFile(f"{path} is not a readable .npy array ({error})") from error
+    if values.dtype.kind not in KINDS:
+        raise BadValuesFile(f"{path} holds {values.dtype}; write numbers or words")
+    return values
+
+
+def _from_text(path: Path, count: int, labels: bool) -> NDArray[Any]:
+    rows = _rows(path)
+    if len(rows) == count + 1:
+        (_, header), *rows = rows
+        if header[0].strip().lower() == "vertex" and len(header) > 1:
+            rows = _without_numbers(path, rows)
+    if len(rows) != count:
+        raise BadValuesFile(f"{path} has {len(rows)} rows; the target has {count} vertices and needs one row for each")
+    width = len(rows[0][1])
+    for number, words in rows:
+        if len(words) != width:
+            raise BadValuesFile(f"{path}, line {number}: {len(words)} entries where the first row has {width}")
+    values = _labels(rows) if labels else _numbers(path, rows)
+    return values[:, 0] if width == 1 else values
+
+
+def _rows(path: Path) -> list[tuple[int, list[str]]]:
+    """Line numbers, and the entries of lines that are not empty."""
+    try:
+        with path.open(encoding="utf-8-sig", newline="") as stream:
+            if path.suffix.lower() == ".csv":
+                reader = csv.reader(stream)
+                return [(reader.line_num, words) for words in reader if words]
+            return [(number, line.split()) for number, line in enumerate(stream, start=1) if line.strip()]
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise BadValuesFile(f"{path} is not UTF-8 text ({error})") from error
+
+
+def _without_numbers(path: Path, rows: list[tuple[int, list[str]]]) -> list[tuple[int, list[str]]]:
+    for expected, (number, words) in enumerate(rows):
+        if words[0].strip() != str(expected):
+            raise BadValuesFile(f"{path}, line {number}: vertex {words[0][:40]!r} where {expected} should be")
+    return [(number, words[1:]) for number, words in rows]
+
+
+def _numbers(path: Path, rows: list[tuple[int, list[str]]]) -> Floats:
+    values = np.empty((len(rows), len(rows[0][1])))
+    for i, (number, words) in enumerate(rows):
+        for j, word in enumerate(words):
+            try:
+                values[i, j] = float(word)
+            except ValueError:
+                hint = "give --labels if values are names"
+                raise BadValuesFile(f"{path}, line {number}: {word[:40]!r} is not a number; {hint}") from None
+    return values
+
+
+def _labels(rows: list[tuple[int, list[str]]]) -> NDArray[Any]:
+    words = [words for _, words in rows]
+    try:
+        return np.array([[int(word) for word in row] for row in words], dtype=np.int64)
+    except (ValueError, OverflowError):
+        return np.array(words, dtype=np.str_)

@@ -1,0 +1,49 @@
+"""Compiling every kernel ahead of time, so that the first real match does not wait for it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+VERTICES = 300  # enough for everything to have work, few enough for seconds
+SPARSE = 1200  # below some hundred vertices spectra are computed densely, by other means
+
+
+@dataclass(frozen=True)
+class Warmth:
+    """`compiled`: how many kernels were compiled now, not read from disk; `seconds`: how long it all took.
+
+    `folder` keeps what was compiled; it is None where none can be written: every process then compiles for itself.
+    """
+
+    compiled: int
+    seconds: float
+    folder: str | None
+
+
+def warm_up(progress: Callable[[str, float], None] | None = None) -> Warmth:
+    """Compile all kernels by a tiny match and a few geodesic distances; once they are kept, this takes seconds."""
+    from geodesics import GeodesicDistance, SurfacePoints, eigenpairs, farthest_point_sampling, scale_invariant
+    from geodesics.compiling import cache_folder, told_of_compiling
+    from gmds.matching.pipeline import match
+    from gmds.shapes import quadruped
+
+    started = time.perf_counter()
+    compiled = 0
+
+    def compiling(begins: bool) -> None:
+        nonlocal compiled
+        compiled += begins
+
+    with told_of_compiling(compiling):
+        source, target = (quadruped(pose, n_vertices=VERTICES) for pose in ("stand", "walk"))
+        distance = GeodesicDistance(scale_invariant(source))
+        distance.field(SurfacePoints(source, np.array([0]), np.full((1, 3), 1 / 3)))
+        farthest_point_sampling(distance, 4)
+        eigenpairs(scale_invariant(quadruped(n_vertices=SPARSE)), 10)
+        match(source, target, distance=lambda mesh: GeodesicDistance(scale_invariant(mesh)), n_samples=12)
+        match(source, target, progress=progress)
+    return Warmth(compiled, time.perf_counter() - started, cache_folder())

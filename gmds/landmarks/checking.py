@@ -1,0 +1,176 @@
+"""Landmarks: known corresponding points, in any of the forms people have them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from geodesics import Mesh, MeshError, SurfacePoints
+from geodesics.arrays import Floats
+from geodesics.errors import Note
+from gmds.errors import LandmarkError
+from gmds.landmarks.placed import PlacedLandmarks
+
+FARTHEST_LANDMARK = 0.05  # of the diagonal of the bounding box
+TOLERANCE = 0.05  # of soft landmarks
+
+
+def check_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> tuple[SurfacePoints, SurfacePoints]:
+    """Corresponding points of both surfaces from what a user gives; raises `LandmarkError` (E300-E305).
+
+    `landmarks` is an array (k, 2) of vertex index pairs, or a pair (on source, on target) whose halves are vertex
+    indices (k,), positions in space (k, 3) that are moved to the closest surface point, rows (k, 4) of a face and three
+    barycentric weights, or `SurfacePoints`; all of them may stand in `SoftLandmarks`. Two nested lists of two indices
+    each are read as two index pairs.
+    """
+    placed = place_landmarks(landmarks, source, target)
+    return placed.on_source, placed.on_target
+
+
+@dataclass(frozen=True, eq=False)
+class SoftLandmarks:
+    """Landmarks that pull rather than pin, in any form that `check_landmarks` takes.
+
+    `tolerance`, a number or k of them: to within how far each is right, in square roots of the area of the target; 0
+    makes it a hard one. A landmark that is missed by many times its tolerance pulls ever less.
+    """
+
+    landmarks: Any
+    tolerance: ArrayLike = TOLERANCE
+
+
+def place_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> PlacedLandmarks:
+    """As `check_landmarks`, with tolerances, and a note (W301) on positions moved to the surface, and how far."""
+    notes: list[Note] = []
+    sides = []
+    tolerance: ArrayLike = 0.0
+    if isinstance(landmarks, SoftLandmarks):
+        landmarks, tolerance = landmarks.landmarks, landmarks.tolerance
+    for given, mesh, name in zip(_halves(landmarks), (source, target), ("source", "target"), strict=True):
+        sides.append(_place(given, mesh, name, notes))
+    on_source, on_target = sides
+    if len(on_source) != len(on_target):
+        raise LandmarkError(
+            "E303", f"{len(on_source)} landmarks on the source but {len(on_target)} on the target; give one for each"
+        )
+    return PlacedLandmarks(on_source, on_target, _tolerances(tolerance, len(on_source)), tuple(notes))
+
+
+def place_on(given: Any, mesh: Mesh, name: str = "surface") -> SurfacePoints:
+    """Landmarks of one mesh, vertices (k,) or positions (k, 3), as points of it; raises as `check_landmarks`."""
+    return _place(given if isinstance(given, SurfacePoints) else _array(given), mesh, name, [])
+
+
+def _halves(landmarks: Any) -> tuple[Any, Any]:
+    """The source half and the target half."""
+    if isinstance(landmarks, (tuple, list)) and len(landmarks) == 2:
+        halves: list[Any] = [x if isinstance(x, SurfacePoints) else _array(x) for x in landmarks]
+        plain = all(isinstance(x, (tuple, list)) for x in landmarks)
+        if not (plain and all(np.shape(x) == (2,) for x in halves)):
+            return halves[0], halves[1]
+    pairs = _array(landmarks)
+    if pairs.ndim != 2 or pairs.shape[1] != 2:
+        raise LandmarkError(
+            "E300", f"landmarks must be index pairs (k, 2) or a pair (on source, on target), not shape {pairs.shape}"
+        )
+    return pairs[:, 0], pairs[:, 1]
+
+
+def _array(values: Any) -> NDArray[Any]:
+    try:
+        array = np.asarray(values)
+    except ValueError as error:
+        raise LandmarkError("E300", f"landmarks do not form a rectangular array ({error})") from error
+    if array.dtype.kind not in "iuf" or np.ma.is_masked(values):
+        raise LandmarkError("E300", f"landmarks must be vertex indices or positions, not {array.dtype}")
+    return array
+
+
+def _place(given: Any, mesh: Mesh, name: str, notes: list[Note]) -> SurfacePoints:
+    """One half of the landmarks on its mesh."""
+    if isinstance(given, SurfacePoints):
+        if given.mesh is not mesh:
+            raise LandmarkError("E300", f"the landmarks of the {name} are points of another mesh")
+        points = given
+    elif given.ndim == 2 and given.shape[1] == 3:
+        points = _snap(given, mesh, name, notes)
+    elif given.ndim == 2 and given.shape[1] == 4:
+        points = _on_faces(given, mesh, name)
+    elif given.ndim == 1:
+        return _at_vertices(given, mesh, name)
+    else:
+        raise LandmarkError(
+            "E300", f"landmarks of the {name} must have shape (k,), (k, 3) or (k, 4), not {given.shape}"
+        )
+    _refuse_repeats(points.positions, name)
+    return points
+
+
+def _on_faces(given: NDArray[Any], mesh: Mesh, name: str) -> SurfacePoints:
+    face = given[:, 0]
+    if (~np.isfinite(face) | (face != np.floor(face)) | (face < 0) | (face >= mesh.n_faces)).any():
+        raise LandmarkError(
+            "E301", f"the {name} has faces 0 to {mesh.n_faces - 1}; a landmark says {face.tolist()!r:.60}"
+        )
+    try:
+        return SurfacePoints(mesh, face.astype(np.int64), given[:, 1:])
+    except MeshError as error:
+        raise LandmarkError("E300", f"barycentric weights of the {name} landmarks: {error}") from error
+
+
+def _tolerances(given: ArrayLike, count: int) -> Floats:
+    try:
+        tolerance = np.broadcast_to(np.asarray(given, dtype=np.float64), (count,)).copy()
+    except (TypeError, ValueError) as error:
+        raise LandmarkError("E300", f"the tolerance must be a number or {count} of them ({error})") from error
+    if not (np.isfinite(tolerance) & (tolerance >= 0)).all():
+        raise LandmarkError("E300", "a tolerance must be 0 or a positive number, in square roots of the area")
+    return tolerance
+
+
+def _at_vertices(given: NDArray[Any], mesh: Mesh, name: str) -> SurfacePoints:
+    if given.dtype.kind == "f" and (~np.isfinite(given) | (given != np.floor(given))).any():
+        raise LandmarkError("E300", f"vertex indices of the {name} must be whole numbers")
+    bad = np.flatnonzero((given < 0) | (given >= mesh.n_vertices))
+    if len(bad):
+        raise LandmarkError(
+            "E301", f"landmark {bad[0]}: the {name} has no vertex {given[bad[0]]}; it has {mesh.n_vertices}, from 0"
+        )
+    _refuse_repeats(given[:, None], name)
+    lonely = np.flatnonzero(~np.isin(given, mesh.faces))
+    if len(lonely):
+        raise LandmarkError("E304", f"landmark {lonely[0]}: vertex {given[lonely[0]]} of the {name} is on no face")
+    return SurfacePoints.at_vertices(mesh, given)
+
+
+def _refuse_repeats(rows: NDArray[Any], name: str) -> None:
+    _, first, inverse = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    repeated = np.flatnonzero(first[inverse.reshape(-1)] != np.arange(len(rows)))
+    if len(repeated):
+        earlier = first[inverse.reshape(-1)][repeated[0]]
+        raise LandmarkError("E302", f"landmarks {earlier} and {repeated[0]} are the same point of the {name}")
+
+
+def _snap(given: NDArray[Any], mesh: Mesh, name: str, notes: list[Note]) -> SurfacePoints:
+    try:
+        points = SurfacePoints.closest(mesh, given)
+    except MeshError as error:
+        raise LandmarkError("E300", f"positions of the {name} landmarks: {error}") from error
+    distance = np.linalg.norm(points.positions - given, axis=1)
+    share = distance / np.linalg.norm(np.ptp(mesh.vertices[mesh.faces], axis=(0, 1)))
+    worst = int(share.argmax())
+    if share[worst] > FARTHEST_LANDMARK:
+        raise LandmarkError(
+            "E305",
+            f"landmark {worst} lies {share[worst]:.1%} of the diagonal of the {name} off its surface (at most 5 %)",
+        )
+    moved = np.flatnonzero(share > 1e-6)
+    if len(moved):
+        message = (
+            f"{len(moved)} landmarks of the {name} moved to its surface, by up to {share[worst]:.2%} of the diagonal"
+        )
+        notes.append(Note("W301", "info", message, tuple(moved.tolist())))
+    return points

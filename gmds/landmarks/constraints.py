@@ -1,0 +1,80 @@
+"""What is known of a map beforehand: landmarks, as the parts of matching see them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from geodesics import SurfacePoints
+from geodesics.arrays import Bools, Floats, Integers
+from geodesics.closest import closest_on_triangles
+
+
+@dataclass(frozen=True, eq=False)
+class Marks:
+    """Points of a surface as `corners` (k, 3), its vertices, with `weights` (k, 3): whichever way its faces turn."""
+
+    corners: Integers
+    weights: Floats
+
+    @classmethod
+    def of(cls, points: SurfacePoints) -> Marks:
+        """The points of a mesh."""
+        return cls(points.mesh.faces[points.face], points.barycentric)
+
+    @classmethod
+    def closest(cls, places: Floats, vertices: Floats, faces: Integers) -> Marks:
+        """The points of a mesh that are closest to places (k, 3)."""
+        face, weights, _ = closest_on_triangles(places, vertices, faces)
+        return cls(faces[face], weights)
+
+    def positions(self, vertices: Floats) -> Floats:
+        """Where they are (k, 3)."""
+        return np.asarray(np.einsum("kc,kcj->kj", self.weights, vertices[self.corners]), dtype=np.float64)
+
+    @property
+    def vertices(self) -> Integers:
+        """The heaviest corners (k,)."""
+        return self.corners[np.arange(len(self.corners)), self.weights.argmax(axis=1)]
+
+    def __getitem__(self, rows: Integers | Bools) -> Marks:
+        return Marks(self.corners[rows], self.weights[rows])
+
+
+@dataclass(frozen=True, eq=False)
+class Known:
+    """Corresponding points of two surfaces, k each, and the `tolerance` (k,) in root areas: 0 for hard landmarks."""
+
+    source: Marks
+    target: Marks
+    tolerance: Floats
+
+    def __getitem__(self, rows: Integers | Bools) -> Known:
+        return Known(self.source[rows], self.target[rows], self.tolerance[rows])
+
+    def __len__(self) -> int:
+        return len(self.tolerance)
+
+    @property
+    def hard(self) -> Known:
+        """Those that hold exactly."""
+        return self[self.tolerance <= 0]
+
+    @property
+    def vertices(self) -> tuple[Integers, Integers]:
+        """The vertices nearest to them on both surfaces, none of them twice."""
+        rows = np.stack([self.source.vertices, self.target.vertices], axis=1)
+        for column in range(2):
+            rows = rows[np.sort(np.unique(rows[:, column], return_index=True)[1])]
+        return rows[:, 0], rows[:, 1]
+
+    def within(self, source: Integers, target: Integers) -> Known | None:
+        """Those that lie on these faces of both surfaces, if any do."""
+        ours, theirs = np.isin(self.source.vertices, source), np.isin(self.target.vertices, target)
+        return self[ours & theirs] if (ours & theirs).any() else None
+
+    def miss(self, points: SurfacePoints, vertices: Floats) -> float:
+        """Mean distance of the images from where they belong, for a map to points (n,), of vertices (q, 3)."""
+        gap = self.source.positions(points.positions) - self.target.positions(vertices)
+        return float(np.linalg.norm(gap, axis=1).mean())

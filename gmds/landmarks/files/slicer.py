@@ -1,0 +1,151 @@
+"""Landmarks as 3D Slicer keeps them: markups (.mrk.json, schema 1.x) and fiducials (.fcsv, 4.x)."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, NoReturn
+
+from gmds.landmarks.files.named_points import SPACES, BadLandmarkFile, Landmarks, Space, turned
+from gmds.landmarks.files.reading import Rows, position
+
+Columns = Mapping[str, Sequence[object]]
+
+SCHEMA = (
+    "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/Schema/"
+    "markups-schema-v1.0.3.json#"
+)
+FCSV_COLUMNS = "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID"
+FCSV_SPACES = {"LPS": "LPS", "RAS": "RAS", "0": "RAS", "1": "LPS"}  # numbers until 4.10
+NOWHERE = ("undefined", "missing", "preview")  # values of positionStatus
+
+
+def parse_mrk(path: Path, text: str, space: Space) -> Landmarks:
+    """The control points of every list; a list that does not name its frame is in LPS, as the schema says."""
+    try:
+        content = json.loads(text)
+    except json.JSONDecodeError as error:
+        raise BadLandmarkFile(f"{path}, line {error.lineno}: not JSON ({error.msg})") from error
+    except (RecursionError, ValueError) as error:
+        raise BadLandmarkFile(f"{path} is not readable JSON ({error})") from error
+    schema = content.get("@schema") if isinstance(content, dict) else None
+    version = re.search(r"markups-schema-v(\d+)\.", schema) if isinstance(schema, str) else None
+    if version is None or version[1] != "1" or not isinstance(content.get("markups"), list):
+        raise BadLandmarkFile(f"{path} is not a markups file of schema 1.x (its @schema is {schema!r:.80})")
+    rows = Rows(path)
+    for i, markup in enumerate(content["markups"]):
+        _read_markup(rows, f"markups[{i}]", markup, space)
+    return rows.landmarks()
+
+
+def mrk_text(landmarks: Landmarks, space: Space, columns: Columns) -> str:
+    """A list of fiducials in the frame `space`."""
+    points = [
+        {
+            "id": str(i + 1),
+            "label": name,
+            "description": _described(columns, i),
+            "position": landmarks.positions[i].tolist(),
+            "selected": True,
+            "locked": False,
+            "visibility": True,
+            "positionStatus": "defined",
+        }
+        for i, name in enumerate(landmarks.names)
+    ]
+    markup = {"type": "Fiducial", "coordinateSystem": space, "controlPoints": points}
+    return json.dumps({"@schema": SCHEMA, "markups": [markup]}, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def parse_fcsv(path: Path, text: str, space: Space) -> Landmarks:
+    """Fiducials; the header must say which frame they are in."""
+    given: str | None = None
+    titles = FCSV_COLUMNS.split(",")
+    rows, places = Rows(path), []
+    for number, line in enumerate(text.splitlines(), start=1):
+        if line.startswith("#"):
+            key, _, value = (part.strip() for part in line[1:].partition("="))
+            if key.lower() == "coordinatesystem":
+                given = _fcsv_space(path, number, value, given)
+            elif key.lower() == "columns":
+                titles = [title.strip() for title in value.split(",")]
+                if not {"x", "y", "z", "label"} <= set(titles):
+                    raise BadLandmarkFile(f"{path}, line {number}: the columns must hold x, y, z and label")
+        elif line.strip():
+            places.append((number, _fcsv_cells(path, number, line, titles)))
+    if given is None:
+        raise BadLandmarkFile(f"{path} does not say its frame; add the line `# CoordinateSystem = LPS` (or RAS)")
+    for number, cells in places:
+        at = position(path, number, [cells[axis] for axis in "xyz"])
+        rows.add(f"line {number}", cells["label"], at)
+    found = rows.landmarks()
+    return Landmarks(found.names, turned(found.at, given, space), found.named)
+
+
+def fcsv_text(landmarks: Landmarks, space: Space, columns: Columns) -> str:
+    """Fiducials in the frame `space`; line ends in names become blanks, as a fiducial is a line."""
+    out = io.StringIO()
+    out.write(f"# Markups fiducial file version = 4.13\n# CoordinateSystem = {space}\n# columns = {FCSV_COLUMNS}\n")
+    writer = csv.writer(out, lineterminator="\n")
+    for i, name in enumerate(landmarks.names):
+        label = " ".join(name.split())
+        place = landmarks.positions[i].tolist()
+        writer.writerow([i + 1, *place, 0, 0, 0, 1, 1, 1, 0, label, _described(columns, i), ""])
+    return out.getvalue()
+
+
+def _read_markup(rows: Rows, where: str, markup: Any, space: Space) -> None:
+    def refuse(what: str) -> NoReturn:
+        raise BadLandmarkFile(f"{rows.path}, {where}: {what}")
+
+    if not isinstance(markup, dict) or not isinstance(markup.get("controlPoints", []), list):
+        refuse("no list of controlPoints")
+    given = markup.get("coordinateSystem", "LPS")
+    if given not in SPACES:
+        refuse(f"coordinateSystem is {given!r:.40}, not LPS or RAS")
+    for i, point in enumerate(markup.get("controlPoints", [])):
+        place = f"{where}.controlPoints[{i}]"
+        if not isinstance(point, dict):
+            refuse(f"controlPoints[{i}] is no object")
+        label = point.get("label", "")
+        if not isinstance(label, str):
+            refuse(f"controlPoints[{i}]: the label is no text")
+        if point.get("positionStatus", "defined") in NOWHERE:
+            rows.add(place, label, None)
+            continue
+        at: Any = point.get("position")
+        if not _is_position(at):
+            refuse(f"controlPoints[{i}] ({label!r:.40}): the position must be three finite numbers")
+        sign = 1.0 if given == space else -1.0  # as in `turned`
+        rows.add(place, label, [sign * at[0], sign * at[1], float(at[2])])
+
+
+def _is_position(at: Any) -> bool:
+    plain = isinstance(at, list) and all(isinstance(x, int | float) and not isinstance(x, bool) for x in at)
+    return plain and len(at) == 3 and all(abs(x) <= 1e308 for x in at)  # NaN compares false
+
+
+def _fcsv_space(path: Path, number: int, value: str, before: str | None) -> str:
+    given = FCSV_SPACES.get(value.upper())
+    if given is None or before not in (None, given):
+        raise BadLandmarkFile(f"{path}, line {number}: the frame is {value[:40]!r}; LPS or RAS, one for the whole file")
+    return given
+
+
+def _fcsv_cells(path: Path, number: int, line: str, titles: list[str]) -> dict[str, str]:
+    try:
+        cells = next(csv.reader([line], strict=True))
+    except csv.Error as error:
+        raise BadLandmarkFile(f"{path}, line {number}: {error}") from error
+    needed = max(titles.index(title) for title in ("x", "y", "z", "label")) + 1
+    if len(cells) < needed:
+        raise BadLandmarkFile(f"{path}, line {number}: {len(cells)} entries; its columns need at least {needed}")
+    return dict(zip(titles, cells, strict=False))
+
+
+def _described(columns: Columns, i: int) -> str:
+    return ", ".join(f"{title} {values[i]}" for title, values in columns.items())

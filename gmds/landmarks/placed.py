@@ -1,0 +1,67 @@
+"""Landmarks once they are points of both surfaces: what matching is told, what the map keeps, what its file says."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from geodesics import SurfacePoints
+from geodesics.arrays import Floats
+from geodesics.errors import Note
+from geodesics.points import mixed
+from gmds.correspondence import Correspondence
+from gmds.landmarks.constraints import Known, Marks
+
+DOUBTFUL = 3  # tolerances by which a map misses a soft landmark that may be wrong
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedLandmarks:
+    """Landmarks as points of both surfaces, k each, with the `tolerance` (k,) of each and `notes` on what was moved."""
+
+    on_source: SurfacePoints
+    on_target: SurfacePoints
+    tolerance: Floats
+    notes: tuple[Note, ...] = ()
+
+    @property
+    def known(self) -> Known:
+        """As the parts of matching see them."""
+        return Known(Marks.of(self.on_source), Marks.of(self.on_target), self.tolerance)
+
+    def described(self) -> dict[str, Any]:
+        """All of it, as JSON can carry it."""
+        sides = {"source": self.on_source, "target": self.on_target}
+        points = {
+            name: {"face": side.face.tolist(), "barycentric": side.barycentric.tolist()} for name, side in sides.items()
+        }
+        return {**points, "tolerance": self.tolerance.tolist()}
+
+    def applied(self, found: Correspondence) -> tuple[Correspondence, list[Note]]:
+        """The map with vertices that are hard landmarks sent exactly where they belong; what is inside a face stays.
+
+        Its parameters tell of the landmarks. The notes name soft ones that the map misses by far (W302).
+        """
+        hard = np.flatnonzero((self.tolerance <= 0) & (self.on_source.barycentric.max(axis=1) >= 1 - 1e-9))
+        place = np.zeros(len(found.points), dtype=np.int64)
+        known = np.zeros(len(place), dtype=bool)
+        rows = self.on_source[hard].nearest_vertices()
+        place[rows], known[rows] = hard, True
+        points = mixed(known, self.on_target[place], found.points)
+        meta = {**found.meta, "parameters": {**found.meta.get("parameters", {}), "landmarks": self.described()}}
+        return replace(found, points=points, valid=found.valid | known, meta=meta), self._doubts(found)
+
+    def _doubts(self, found: Correspondence) -> list[Note]:
+        sent = self.on_source.interpolate(found.points.positions)
+        missed = np.linalg.norm(sent - self.on_target.positions, axis=1) / np.sqrt(found.target.area)
+        wrong = np.flatnonzero((self.tolerance > 0) & (missed > DOUBTFUL * self.tolerance))
+        if not len(wrong):
+            return []
+        worst = wrong[missed[wrong].argmax()]
+        message = (
+            f"{len(wrong)} soft landmarks are missed by more than {DOUBTFUL} tolerances; the worst, number {worst}, by "
+            f"{missed[worst]:.3f} square roots of the area; are they right?"
+        )
+        return [Note("W302", "warning", message, tuple(wrong.tolist()))]

@@ -1,0 +1,59 @@
+"""Landmarks of one surface on another, by a map between the two."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from geodesics import SurfacePoints
+from geodesics.arrays import Bools, Floats
+from gmds.landmarks.checking import place_on
+from gmds.landmarks.files import Landmarks
+from gmds.maps.images import image
+from gmds.maps.point_map import PointMap
+
+
+@dataclass(frozen=True, eq=False)
+class CarriedLandmarks:
+    """Landmarks of the source of a map on its target, k each.
+
+    `on_source`, `on_target`: the points. `moved` (k,): how far the given positions were from the surface of the source,
+    in its units; 0 for vertices. `valid` (k,): False where the source has no counterpart on the target; such a point
+    means nothing. `distortion` (k,): that of the map there.
+    """
+
+    names: tuple[str, ...]
+    on_source: SurfacePoints
+    on_target: SurfacePoints
+    moved: Floats
+    valid: Bools
+    distortion: Floats
+
+    @property
+    def confidence(self) -> Floats:
+        """max(0, 1 - distortion), (k,), and 0 where not `valid`: a rank for whom to look at first, no probability.
+
+        1 says that all distances from the landmark are the same on both surfaces, 0 that they differ by as much as
+        their mean. On surfaces that differ in shape, and not in pose alone, true correspondences also score below 1.
+        """
+        return np.where(self.valid, np.clip(1 - self.distortion, 0, 1), 0.0)
+
+    def landmarks(self, *, vertices: bool = False) -> Landmarks:
+        """The landmarks on the target: positions, or the nearest corner of their face."""
+        at = self.on_target.nearest_vertices() if vertices else self.on_target.positions
+        return Landmarks(self.names, at)
+
+
+def carry_landmarks(answer: PointMap, landmarks: Landmarks) -> CarriedLandmarks:
+    """The landmarks of the source of a map on its target: put on the source, then sent along (see `algebra.image`).
+
+    Raises `LandmarkError` for vertices that do not exist, points given twice, or positions more than 5 % of the
+    diagonal off the surface.
+    """
+    on_source = place_on(landmarks.at, answer.source, "source")
+    moved = np.zeros(len(landmarks))
+    if landmarks.at.shape[1:] == (3,):
+        moved = np.linalg.norm(on_source.positions - landmarks.at, axis=1)
+    on_target, valid, distortion = image(answer, on_source)
+    return CarriedLandmarks(landmarks.names, on_source, on_target, moved, valid, distortion)

@@ -1,0 +1,1 @@
+"""What is done with a point map, whoever made it: follow it, carry values along it, write it."""

@@ -1,0 +1,65 @@
+"""What everybody who draws, judges, carries or writes a map needs of it, whoever made it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any, Protocol
+
+from geodesics.arrays import Bools, Floats, Integers
+from geodesics.mesh import Mesh
+from geodesics.points import SurfacePoints
+
+
+class MatchStatus(Enum):
+    """How far a map can be trusted, best first; the value is a sentence for people."""
+
+    GOOD = "The map preserves distances well and no other map does nearly as well."
+    AMBIGUOUS = "Another map, for instance the mirrored one, does nearly as well; see `candidates`."
+    UNRATED = "Nobody has rated this map; see `distortion`."
+    POOR = "Distances are badly preserved; the two surfaces may not be the same kind of thing."
+
+    @property
+    def rank(self) -> int:
+        """0 for the best status, growing as trust falls."""
+        return list(MatchStatus).index(self)
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """Another map worth looking at, for instance the mirrored one.
+
+    `points` has one row per source vertex; `stress`: mean |d_S - d_Q| between samples over mean d_S (small is good);
+    `orientation` in [-1, 1]: the share of the image's area whose triangles keep their orientation, minus the rest.
+    """
+
+    points: SurfacePoints
+    stress: float
+    orientation: float
+
+
+class PointMap(Protocol):
+    """A map from every vertex of `source` (n of them) to a point of `target`.
+
+    `Correspondence` is one; these are all the attributes that `gmds.maps`, `gmds.pictures`, `gmds.report`,
+    `gmds.appearance`, `gmds.landmarks` and `gmds.evaluation` read, and `Correspondence` says what they mean.
+    """
+
+    @property
+    def source(self) -> Mesh: ...
+    @property
+    def target(self) -> Mesh: ...
+    @property
+    def points(self) -> SurfacePoints: ...
+    @property
+    def valid(self) -> Bools: ...
+    @property
+    def distortion(self) -> Floats: ...
+    @property
+    def status(self) -> MatchStatus: ...
+    @property
+    def candidates(self) -> tuple[Candidate, ...]: ...
+    @property
+    def meta(self) -> Mapping[str, Any]: ...
+    def vertex_map(self) -> Integers: ...

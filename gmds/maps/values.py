@@ -1,0 +1,71 @@
+"""Values on the vertices of one surface, read off at points of it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from geodesics.arrays import Floats
+from geodesics.points import SurfacePoints
+from gmds.errors import MapError
+
+
+def carry(points: SurfacePoints, values: NDArray[Any], labels: bool | None = None) -> NDArray[Any]:
+    """Values per vertex of the points' mesh, (n,) or (n, ...), as values per point, (p,) or (p, ...).
+
+    `labels` says whether values are names (majority wins, dtype kept) or quantities (linear interpolation: floats
+    keep their precision, uint8 colours are rounded, other integers become float64). None decides by dtype:
+    floats, complex numbers and uint8 with 3 or 4 columns are quantities. Raises `MapError`.
+    """
+    if values.ndim == 0 or len(values) != points.mesh.n_vertices:
+        rows = "a single value" if values.ndim == 0 else f"{len(values)} rows"
+        raise MapError(
+            f"values has {rows}; the target has {points.mesh.n_vertices} vertices and needs one row for each"
+        )
+    corners = values[points.mesh.faces[points.face]]
+    if is_label(values) if labels is None else labels:
+        return _majority(corners, points.barycentric)
+    return _blend(corners, points.barycentric)
+
+
+def carry_weights(points: SurfacePoints, weights: ArrayLike) -> Floats:
+    """Weights per vertex (n, k), as of bones in skinning, as weights (p, k) per point: interpolated, rows sum to 1.
+
+    Raises `MapError` naming the vertex whose weights are negative, not finite, or all 0.
+    """
+    given = np.asarray(weights, dtype=np.float64)
+    if given.ndim != 2:
+        raise MapError(f"weights must have shape (n, k), a column for each bone, not {given.shape}")
+    wrong = np.flatnonzero(~(np.isfinite(given).all(axis=1) & (given >= 0).all(axis=1) & (given.sum(axis=1) > 0)))
+    if len(wrong):
+        raise MapError(f"the weights of vertex {wrong[0]} must be at least 0, and one of them above it")
+    carried = carry(points, given / given.sum(axis=1, keepdims=True), labels=False)
+    return np.asarray(carried / carried.sum(axis=1, keepdims=True), dtype=np.float64)
+
+
+def is_label(values: NDArray[Any]) -> bool:
+    """True for integers, booleans, strings and other names; False for floats, complex and uint8 colours."""
+    colour = values.dtype == np.uint8 and values.ndim == 2 and values.shape[1] in (3, 4)
+    return values.dtype.kind not in "fc" and not colour
+
+
+def _blend(corners: NDArray[Any], weights: Floats) -> NDArray[Any]:
+    """Linear interpolation of (p, 3, ...) corner values; a corner of weight zero has no say, even when it is NaN."""
+    w = weights.reshape(weights.shape + (1,) * (corners.ndim - 2))
+    with np.errstate(invalid="ignore", over="ignore"):
+        blended = np.where(w == 0, 0, corners * w).sum(axis=1)
+    if corners.dtype == np.uint8:
+        return np.clip(np.rint(blended), 0, 255).astype(np.uint8)
+    return blended.astype(corners.dtype) if corners.dtype.kind in "fc" else blended.astype(np.float64)
+
+
+def _majority(corners: NDArray[Any], weights: Floats) -> NDArray[Any]:
+    """Per row the corner label (p, 3, ...) with the largest total weight; a tie goes to the heaviest corner."""
+    rows = corners.reshape(len(corners), 3, -1)
+    same = (rows[:, :, None] == rows[:, None, :]).all(axis=-1)
+    share = np.einsum("pij,pj->pi", same, weights)
+    heaviest = np.zeros_like(weights)
+    heaviest[np.arange(len(weights)), weights.argmax(axis=1)] = 1e-9
+    return np.ascontiguousarray(corners[np.arange(len(corners)), (share + heaviest).argmax(axis=1)])

@@ -1,0 +1,27 @@
+"""What is worth knowing of a match, beside the map: notes with codes, in `Correspondence.meta["notes"]`.
+
+| code | says |
+|---|---|
+| W205 | the surfaces differ in topology: no continuous map takes all of one to all of the other |
+| W207 | the status is AMBIGUOUS: another map, for instance the mirrored one, does nearly as well |
+| W301 | landmarks that were given off the surface were moved to it, and how far |
+| W302 | soft landmarks that the map misses by far |
+"""
+
+from __future__ import annotations
+
+from geodesics import Mesh
+from geodesics.errors import Note
+from geodesics.topology.invariants import invariants
+from gmds.maps.point_map import MatchStatus
+
+
+def match_notes(source: Mesh, target: Mesh, status: MatchStatus) -> list[Note]:
+    """The notes on a match of two surfaces, apart from those on its landmarks."""
+    found = []
+    ours, theirs = invariants(source), invariants(target)
+    if str(ours) != str(theirs):
+        found.append(Note("W205", "info", f"different topology: the source has {ours}; the target has {theirs}"))
+    if status is MatchStatus.AMBIGUOUS:
+        found.append(Note("W207", "warning", status.value))
+    return found

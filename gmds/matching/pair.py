@@ -1,0 +1,101 @@
+"""What is to be matched: two measured surfaces, and what is known of them before any map."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from geodesics import SurfacePoints
+from geodesics.arrays import Floats, Integers
+from geodesics.caching import cached_property, memoized
+from geodesics.points import joined
+from geodesics.threads import side_by_side
+from gmds.initialization.reflection import mirror
+from gmds.landmarks.constraints import Known, Marks
+from gmds.registration.anchors import Anchors
+from gmds.registration.deformable import Geometry
+from gmds.spectral.refinement import Refiner
+from gmds.surface.measured import Surface
+
+WEIGHT = 10  # samples that a landmark is worth
+
+
+@dataclass(frozen=True, eq=False)
+class SurfacePair:
+    """What is to be matched: two surfaces, and what is `known` of the map, or None.
+
+    `reflected`: whether the target is the mirror image of what was given, for maps that reverse orientation.
+    """
+
+    source: Surface
+    target: Surface
+    known: Known | None = None
+    reflected: bool = False
+
+    @cached_property
+    def outlines(self) -> tuple[Geometry, Geometry]:
+        """Both surfaces with few faces."""
+        source, target = side_by_side(outline, (self.source, self.target))
+        return self._anchored(source, target)
+
+    @cached_property
+    def geometries(self) -> tuple[Geometry, Geometry]:
+        """Both surfaces with all their faces."""
+        return self._anchored(geometry(self.source), geometry(self.target))
+
+    def _anchored(self, source: Geometry, target: Geometry) -> tuple[Geometry, Geometry]:
+        if self.known is None:
+            return source, target
+        return anchored(self.known, (self.source.mesh.vertices, self.target.mesh.vertices), source, target)
+
+    @cached_property
+    def refiner(self) -> Refiner:
+        """Refines maps in the metric in which they keep area."""
+        return Refiner(self.source, self.target)
+
+    @cached_property
+    def reflections(self) -> tuple[Integers | None, Integers | None]:
+        """A self-map that reverses orientation of the source, or else of the target, if there is one."""
+        ours = reversing(self.source)
+        return ours, reversing(self.target) if ours is None else None
+
+    def with_landmarks(self, samples: Integers, points: SurfacePoints) -> tuple[Integers, SurfacePoints]:
+        """Placed samples with the hard landmarks added, often enough that the extension heeds them."""
+        hard = None if self.known is None else self.known.hard
+        if hard is None or len(hard) == 0:
+            return samples, points
+        ours, theirs = (np.repeat(side, WEIGHT) for side in hard.vertices)
+        return np.concatenate([samples, ours]), joined(points, SurfacePoints.at_vertices(points.mesh, theirs))
+
+
+@memoized
+def outline(surface: Surface) -> Geometry:
+    """The surface with few faces."""
+    return Geometry.outline(surface)
+
+
+@memoized
+def geometry(surface: Surface) -> Geometry:
+    """The surface with all its faces."""
+    return Geometry.of(surface)
+
+
+@memoized
+def reversing(surface: Surface) -> Integers | None:
+    """A self-map (n,) that reverses orientation, if there is one."""
+    return mirror(surface, surface.regular)
+
+
+def anchored(
+    known: Known, places: tuple[Floats, Floats], source: Geometry, target: Geometry
+) -> tuple[Geometry, Geometry]:
+    """Both geometries, of surfaces with vertices at `places` (n, 3), (q, 3), each with anchors on the other."""
+    meshes = source.mesh, target.mesh
+    here, there = (
+        Marks.closest(marks.positions(place), mesh.vertices, mesh.faces)
+        for marks, place, mesh in zip((known.source, known.target), places, meshes, strict=True)
+    )
+    ours = Anchors(here.corners, here.weights, there.positions(meshes[1].vertices), known.tolerance)
+    theirs = Anchors(there.corners, there.weights, here.positions(meshes[0].vertices), known.tolerance)
+    return replace(source, anchors=ours), replace(target, anchors=theirs)

@@ -1,0 +1,143 @@
+"""Many rough maps of two surfaces, weighed by what it costs to deform the one into the other as they say."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from geodesics.arrays import Floats, Integers
+from geodesics.euclidean import euclidean_distances
+from geodesics.threads import side_by_side
+from gmds.initialization.shortlist import hypotheses
+from gmds.matching.pair import SurfacePair
+from gmds.registration.deformable import Geometry
+from gmds.registration.register import BEGIN, COARSE, Registered, register, returning, settled
+from gmds.registration.residuals import Residuals
+from gmds.spectral.sample_maps import SampledPair
+from gmds.surface.view import View
+
+Start = Callable[[SampledPair], list[Integers]]
+
+PROPOSED = 16  # maps that each metric proposes
+LEAST_KEPT = 8  # of them all, at the least, are registered to the end
+RETURNED = 12  # of these, the most likely, are registered the way back as well
+ALIKE = 0.03  # root mean square gap, in root areas, below which maps that have only begun lead to the same
+APART = 0.05  # root mean square gap, in root areas, below which two maps are one
+
+
+@dataclass(frozen=True, eq=False)
+class Proposal:
+    """A map of the outline of the source, `registered` to the outline of the target, and the target `back` to it."""
+
+    registered: Registered
+    back: Registered
+
+    @classmethod
+    def of(cls, pair: SurfacePair, places: Floats, *, growing: bool = False) -> Proposal:
+        """The map that sends the vertices of the source's outline to `places` (n, 3); parts may be `growing`."""
+        source, target = pair.outlines
+        there = register(source, target, places, (*BEGIN, *COARSE), growing=growing)
+        return cls.completed(pair, there, growing=growing)
+
+    @classmethod
+    def completed(cls, pair: SurfacePair, there: Registered, *, growing: bool = False) -> Proposal:
+        """The map of the outline of the source `there` on that of the target."""
+        source, target = pair.outlines
+        begun = returning(source, target, there.y)
+        return cls(there, register(target, source, begun, (*BEGIN, *COARSE), growing=growing))
+
+    @property
+    def residuals(self) -> tuple[Residuals, Residuals]:
+        """What is left of both deformations."""
+        return self.registered.residuals, self.back.residuals
+
+    @property
+    def loss(self) -> float:
+        """Minus the log-likelihood of the map up to a constant.
+
+        Both ways: half a body can be bent onto a whole one in many ways, the whole on the half in few.
+        """
+        return sum(residuals.loss for residuals in self.residuals)
+
+
+def proposals(
+    pair: SurfacePair,
+    views: Sequence[tuple[View, View]],
+    starts: Sequence[Start],
+    progress: Callable[[float], None] | None = None,
+) -> list[Proposal]:
+    """Maps from starts in each pair of views, and composed with a reflection, each registered on the outlines.
+
+    A reflection of either surface makes of a mirrored map the right one, and of a right one the mirrored. Which is
+    which shows when the outline of the source is deformed: a surface can not be turned inside out for little. The third
+    that needs the least deformation to begin with is registered to the end, and `RETURNED` of these the way back.
+    """
+    source, target = pair.outlines
+    places = [target.mesh.vertices[images] for images in rough_maps(pair, views, starts)]
+    first, second, third = (_part(progress, *shares) for shares in ((0.6, 0.75), (0.75, 0.9), (0.9, 1.0)))
+    begun = side_by_side(lambda place: register(source, target, place, BEGIN, growing=False), places, first)
+    likely = _told_apart(_cheapest(begun)[: max(LEAST_KEPT, len(places) // 3)], source)
+    there = side_by_side(lambda found: settled(source, target, found.y, COARSE, growing=False), likely, second)
+    return side_by_side(functools.partial(Proposal.completed, pair), _cheapest(there)[:RETURNED], third)
+
+
+def _part(progress: Callable[[float], None] | None, start: float, end: float) -> Callable[[float], None]:
+    """Tells `progress` of a part of the work that begins and ends at these shares of the whole."""
+    return lambda share: None if progress is None else progress(start + (end - start) * share)
+
+
+def _cheapest(found: Sequence[Registered]) -> list[Registered]:
+    """Those that need the least deformation first."""
+    return sorted(found, key=lambda one: one.residuals.loss)
+
+
+def _told_apart(found: Sequence[Registered], source: Geometry) -> list[Registered]:
+    """Those that no one before them nearly repeats."""
+    rows = np.stack([(np.sqrt(source.areas)[:, None] * one.y).ravel() for one in found])
+    gaps = euclidean_distances(rows, rows)
+    kept: list[int] = []
+    for i in range(len(found)):
+        if (gaps[i, kept] > ALIKE).all():
+            kept.append(i)
+    return [found[i] for i in kept]
+
+
+def rough_maps(pair: SurfacePair, views: Sequence[tuple[View, View]], starts: Sequence[Start]) -> list[Integers]:
+    """Maps (p,) from the vertices of the source's outline to those of the target's, before and after a reflection."""
+    (here, there), (ours, theirs) = pair.outlines, pair.reflections
+    spot = np.zeros(pair.target.mesh.n_vertices, dtype=np.int64)
+    spot[there.origin] = np.arange(len(there.origin))
+    sampled = side_by_side(lambda both: SampledPair.of(*both), views)
+    found = [(one, images) for one in sampled for images in hypotheses(one, starts, PROPOSED)]
+
+    def carried(origin: Integers) -> list[Integers]:
+        return side_by_side(lambda each: spot[each[0].carried(each[1], origin, there.origin)], found)
+
+    straight = carried(here.origin)
+    turned = [] if ours is None else carried(ours[here.origin])
+    if theirs is not None:
+        back = there.places.query(pair.target.mesh.vertices[theirs[there.origin]])[1]
+        turned = [back[images] for images in straight]
+    return straight + turned
+
+
+def distinct(found: Sequence[Proposal], source: Geometry, count: int, within: float = np.inf) -> list[Proposal]:
+    """The `count` best, best first, leaving out those that nearly repeat a better one.
+
+    Those whose log-likelihood falls short of the best by more than `within` are left out as well.
+    """
+    kept: list[Proposal] = []
+    for proposal in sorted(found, key=lambda p: p.loss):
+        likely = not kept or proposal.loss < kept[0].loss + within
+        if likely and len(kept) < count and all(_gap(proposal, other, source.areas) > APART for other in kept):
+            kept.append(proposal)
+    return kept
+
+
+def _gap(one: Proposal, other: Proposal, areas: Floats) -> float:
+    """Root mean square distance between the images of two maps."""
+    squares = ((one.registered.y - other.registered.y) ** 2).sum(axis=1)
+    return float(np.sqrt(areas @ squares))

@@ -1,0 +1,114 @@
+"""From the maps that were embedded to a Correspondence: which rows count, how far to trust it, what else there is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from geodesics import SurfacePoints
+from geodesics.arrays import Bools, Floats
+from gmds.correspondence import Correspondence
+from gmds.maps.point_map import Candidate, MatchStatus
+from gmds.matching.candidates import Embedded
+from gmds.provenance import versions
+from gmds.surface.measured import on_original
+
+POOR = 0.2  # relative stress above which distances count as badly kept
+BENT = 0.2  # correlation of curvature below which they do as well
+TORN = 1.0  # elastic energy above which they do as well: lengths are off by about half
+CLOSE = 0.7  # difference of log-likelihood below which another map may be the right one
+ALONE = 99.0  # the difference told where there is no other map
+DIFFERENT = 0.1  # mean distance between the images of two maps, over root area, that makes them two answers
+OFF = 0.5  # spacings of vertices beyond which a point is off the target
+NEAR = 2.0  # times its distance from the target: nearer to the boundary, it is beyond
+REGION = 2e-4  # heat time, in units of the area, that makes a region of vertices
+AROUND = 1e-2  # heat time over which distortion is averaged: errors reach farther than what causes them
+
+
+def answer(placed: Sequence[Embedded], meta: Mapping[str, Any]) -> Correspondence:
+    """The best map as a `Correspondence` between the original meshes, the others as its candidates."""
+    best = placed[0]
+    source, target, margin = best.pair.source, best.pair.target, _margin(placed)
+    evidence = {**asdict(best.evidence), "margin": min(margin, ALONE)}
+    candidates = tuple(Candidate(_original(e), e.evidence.stress, e.evidence.orientation) for e in placed[1:])
+    return Correspondence(
+        source=source.original,
+        target=target.original,
+        points=_original(best),
+        valid=_valid(best),
+        distortion=_distortion(best),
+        status=_status(best, margin),
+        candidates=candidates,
+        meta={**meta, "evidence": evidence, "solver": best.solution.status.name, "versions": versions()},
+    )
+
+
+def contenders(placed: Sequence[Embedded]) -> list[Embedded]:
+    """The most likely map and, if it is nearly as likely, the next: to be refined before one is chosen.
+
+    `placed`: the most likely first. Where there is a boundary refinement has no say in which is the more likely.
+    """
+    best = placed[0]
+    close = [e for e in placed[1:] if e.evidence.closed and e.evidence.loss < best.evidence.loss + CLOSE]
+    return [best, *close[:1]]
+
+
+def _original(embedded: Embedded) -> SurfacePoints:
+    """The points on the original target; vertices that were left out go where the nearest one that was not went."""
+    source, target, points = embedded.pair.source, embedded.pair.target, embedded.points
+    used = source.regular.usable
+    row = np.arange(source.mesh.n_vertices)
+    if len(used) < len(row):
+        row = used[cKDTree(source.mesh.vertices[used]).query(source.mesh.vertices)[1]]
+    return on_original(target, points[row])
+
+
+def _valid(embedded: Embedded) -> Bools:
+    """False (n,) at vertices of no area, and where the deformed source reaches beyond the boundary of the target.
+
+    A vertex does when it is off the target and the boundary is hardly farther from it than the target is; so does a
+    region (`REGION`) when most of it does.
+    """
+    (source, target), found = embedded.pair.geometries, embedded.deformation
+    used = source.areas > 0
+    edge = np.flatnonzero(target.boundary)
+    if len(edge) == 0:
+        return np.asarray(used, dtype=np.bool_)
+    gap = np.linalg.norm(found.y - embedded.points.positions, axis=1)
+    to_edge = cKDTree(target.mesh.vertices[edge]).query(found.y)[0]
+    spacing = np.sqrt(np.median(target.areas[target.usable]))
+    beyond = (gap > OFF * spacing) & (to_edge < NEAR * gap)
+    share = source.elasticity.smoother(REGION)(source.areas * beyond)
+    return np.asarray(used & (share < 0.5), dtype=np.bool_)
+
+
+def _distortion(embedded: Embedded) -> Floats:
+    """Root of the elastic energy per area around each vertex (n,): the relative error of lengths; 1 where no map is."""
+    source = embedded.pair.geometries[0]
+    smooth = source.elasticity.smoother(AROUND)
+    result = np.sqrt(np.maximum(smooth(source.areas * embedded.deformation.strain), 0.0))
+    result[source.areas <= 0] = 1.0
+    return np.asarray(result, dtype=np.float64)
+
+
+def _status(best: Embedded, margin: float) -> MatchStatus:
+    """POOR where distances, curvature or lengths are badly kept, AMBIGUOUS where another map is nearly as likely."""
+    whole = best.evidence.whole
+    if best.evidence.stress > POOR or whole.curvature < BENT or whole.energy > TORN:
+        return MatchStatus.POOR
+    return MatchStatus.AMBIGUOUS if margin < CLOSE else MatchStatus.GOOD
+
+
+def _margin(placed: Sequence[Embedded]) -> float:
+    """How much more likely the best map is than any quite different one: the difference of log-likelihood."""
+    others = [other.evidence.loss for other in placed[1:] if _gap(placed[0], other) > DIFFERENT]
+    return min(others, default=np.inf) - placed[0].evidence.loss
+
+
+def _gap(one: Embedded, other: Embedded) -> float:
+    """Mean distance in space between the images of two maps, over the square root of the target's area."""
+    return float(np.linalg.norm(one.points.positions - other.points.positions, axis=1).mean())

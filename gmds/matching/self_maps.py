@@ -1,0 +1,183 @@
+"""Maps of a surface to itself, other than the identity: proposed, embedded, registered, and told from one another."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from geodesics import scale_invariant
+from geodesics.arrays import Floats
+from geodesics.threads import side_by_side
+from gmds import initialization
+from gmds.matching.candidates import Embedded, embed
+from gmds.matching.pair import SurfacePair
+from gmds.matching.polishing import finished
+from gmds.matching.proposals import Proposal, distinct, rough_maps
+from gmds.mds.losses import Loss
+from gmds.registration.register import BEGIN, COARSE, Registered, register, settled
+from gmds.registration.residuals import Residuals
+from gmds.surface.measured import Surface
+
+TRIED = 12  # rough maps of each kind that are registered to the end, and more where they fit exactly
+MOST = 24  # self-maps of each kind, orientation-reversing or not, that are embedded
+ALWAYS = 3  # of the reversing ones, however unlikely
+LIKELY = 1.2  # log-likelihood, on the outlines, that the others may be short of the best
+CONVINCING = -16.0  # loss below which, on the outlines, more likely ones put nobody to shame: there all fit exactly
+STILL = (0.05, 0.09)  # mean distance in root areas below which a map is no more than the identity with something
+# small misplaced: a reversing one (the identity inside out), one that keeps orientation
+APART = 0.08  # the same between two symmetries
+DISTINCT = 0.03  # the same between two maps that are worth refining
+SPARE = 2.5  # times the elastic energy of the best map that the others may need, where it is more than
+FREE_ENERGY = 0.03  # which any may need
+ENERGY = 0.5  # elastic energy above which a self-map is no symmetry
+CURVATURE = 0.77  # correlation of mean curvature below which it is none
+STRESS = 0.2  # relative change of distances above which it is none
+SENSE = 0.5  # share of the area whose orientation a map must treat alike
+SAMPLES = 300
+SMOOTHING = 2e-3  # of the curvature, in the metric that only self-maps are proposed in
+
+
+@dataclass(frozen=True, eq=False)
+class SelfMap:
+    """A map of a surface to itself, embedded and registered; an orientation-reversing one goes to the mirror image."""
+
+    embedded: Embedded
+
+    @property
+    def positions(self) -> Floats:
+        """Where the vertices go (n, 3), on the surface itself."""
+        return _unmirrored(self.embedded.points.positions, self.embedded.pair)
+
+    @property
+    def loss(self) -> float:
+        """Minus its log-likelihood up to a constant: the deformation of the whole, and how much of it is folded over.
+
+        Unlike in `match` the outlines, whose parts keep their sizes, have had their say when the map was proposed, and
+        nothing is missing from a surface that is its own target. A map that swaps one pair of legs and not the other
+        folds the surface in between.
+        """
+        evidence = self.embedded.evidence
+        return evidence.whole.loss + evidence.fold_loss
+
+    @property
+    def energy(self) -> float:
+        """Elastic energy of the deformation."""
+        return self.embedded.evidence.whole.energy
+
+    @property
+    def still(self) -> bool:
+        """Whether it is hardly more than the identity."""
+        moved = self._mean_distance(self.positions, self.embedded.pair.source.mesh.vertices)
+        return moved <= _still(self.embedded.pair)
+
+    @property
+    def twice(self) -> float:
+        """Mean distance in root areas from where the map, done twice, brings points back: 0 for an involution."""
+        again = self.embedded.points.interpolate(self.positions)
+        return self._mean_distance(again, self.embedded.pair.source.mesh.vertices)
+
+    @property
+    def plausible(self) -> bool:
+        """Whether it keeps lengths, distances and curvature, and does to orientation what it is meant to."""
+        evidence, reversing = self.embedded.evidence, self.embedded.pair.reflected
+        keeps = evidence.stress <= STRESS and evidence.whole.energy <= ENERGY and _curvature(evidence.whole) > CURVATURE
+        return keeps and (-evidence.orientation if reversing else evidence.orientation) > SENSE
+
+    def gap(self, other: SelfMap) -> float:
+        """Mean distance between the images of two self-maps, in root areas."""
+        return self._mean_distance(self.positions, other.positions)
+
+    def _mean_distance(self, x: Floats, y: Floats) -> float:
+        return float(self.embedded.pair.geometries[0].areas @ np.linalg.norm(x - y, axis=1))
+
+
+def self_maps(
+    surface: Surface, mirrored: Surface, loss: Loss, progress: Callable[[str, float], None]
+) -> Iterator[SelfMap]:
+    """Self-maps that may be symmetries, most likely first, no two alike and none the identity.
+
+    An orientation-reversing self-map is a map to the mirror image that preserves orientation. Proposals are those of
+    `match`; the likely ones are embedded, and the best of these refined.
+    """
+    pairs = SurfacePair(surface, mirrored, None, True), SurfacePair(surface, surface)
+    kinds: list[list[Proposal]] = []
+    for number, pair in enumerate(pairs):
+        progress("proposing", 0.05 + 0.25 * number)
+        found = [p for p in proposed(pair) if _moves(p.registered, pair) > _still(pair)]
+        kinds.append(distinct(found, pair.outlines[0], MOST))
+    limit = max(min((p.loss for kind in kinds for p in kind), default=0.0), CONVINCING) + LIKELY
+    chosen = [(pairs[0], p) for i, p in enumerate(kinds[0]) if i < ALWAYS or p.loss < limit]
+    chosen += [(pairs[1], p) for p in kinds[1] if p.loss < limit]
+    begun: list[SelfMap] = []
+    for i, (pair, proposal) in enumerate(chosen):
+        progress("embedding", 0.55 + 0.3 * i / len(chosen))
+        begun.append(SelfMap(embed(pair, proposal, loss, min(SAMPLES, len(surface.regular.usable)))))
+    best = likely(begun, DISTINCT)
+    for i, found_map in enumerate(best):
+        progress("refining", 0.85 + 0.15 * i / len(best))
+        yield SelfMap(finished(found_map.embedded))
+
+
+def proposed(pair: SurfacePair) -> list[Proposal]:
+    """Proposals from the rough maps of `match` that are neither alike nor near the identity: the likeliest of them.
+
+    One metric more than in `match`: curvature of either side of a surface comes from the same mesh, so that there is
+    less to be smoothed away, and what is left follows parts that grew more closely. Parts may grow from the beginning:
+    what would explain it otherwise, on a surface and itself, is only that they stay where they are.
+    """
+    source, target = pair.outlines
+    sharp = functools.partial(scale_invariant, smoothing=SMOOTHING)
+    views = [
+        *zip(pair.source.views, pair.target.views, strict=True),
+        (pair.source.view(sharp), pair.target.view(sharp)),
+    ]
+    places = [target.mesh.vertices[images] for images in rough_maps(pair, views, initialization.ALL)]
+    begun = side_by_side(lambda place: register(source, target, place, BEGIN, growing=True), places)
+    kept: list[int] = []
+    for i in np.argsort([found.residuals.loss for found in begun], kind="stable"):
+        new = all(source.areas @ np.linalg.norm(begun[i].y - begun[j].y, axis=1) > DISTINCT for j in kept)
+        wanted = len(kept) < TRIED or begun[i].residuals.loss < CONVINCING / 2
+        if new and wanted and _moves(begun[i], pair) > _still(pair):
+            kept.append(int(i))
+
+    def completed(number: int) -> Proposal:
+        there = settled(source, target, begun[number].y, COARSE, growing=True)
+        return Proposal.completed(pair, there, growing=True)
+
+    return side_by_side(completed, kept)
+
+
+def likely(maps: list[SelfMap], apart: float = APART) -> list[SelfMap]:
+    """Those that need not much more energy than the most likely, most likely first, without repetitions.
+
+    A map that swaps one pair of legs and not the other costs a tear; where it is the best there is, it comes alone.
+    """
+    kept: list[SelfMap] = []
+    for found in sorted((m for m in maps if not m.still), key=lambda m: m.loss):
+        allowed = not kept or found.energy <= max(SPARE * kept[0].energy, FREE_ENERGY)
+        if allowed and all(found.gap(other) > apart for other in kept):
+            kept.append(found)
+    return kept
+
+
+def _curvature(residuals: Residuals) -> float:
+    return min(residuals.curvature, residuals.curvature_back)
+
+
+def _moves(found: Registered, pair: SurfacePair) -> float:
+    """Mean distance over which a registration moves the outline."""
+    outline = pair.outlines[0]
+    gaps = np.linalg.norm(_unmirrored(found.y, pair) - outline.mesh.vertices, axis=1)
+    return float(outline.areas @ gaps)
+
+
+def _still(pair: SurfacePair) -> float:
+    return STILL[0] if pair.reflected else STILL[1]
+
+
+def _unmirrored(places: Floats, pair: SurfacePair) -> Floats:
+    """Positions (n, 3) on the target of a pair as positions on the source, of which it is a copy or mirror image."""
+    return places * (-1.0, 1.0, 1.0) if pair.reflected else places

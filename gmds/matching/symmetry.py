@@ -1,0 +1,71 @@
+"""self_symmetry(): the maps of a surface to itself, other than the identity."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import replace
+
+from geodesics import Mesh
+from geodesics.threads import on_one_blas_thread
+from gmds.correspondence import Correspondence
+from gmds.maps.point_map import MatchStatus
+from gmds.matching.large_surfaces import WORKING, Carrier, copied
+from gmds.matching.result import answer
+from gmds.matching.self_maps import SelfMap, likely, self_maps
+from gmds.mds.losses import LeastSquares
+from gmds.suggestions import suggest_keywords
+from gmds.surface.measured import measure
+
+
+@suggest_keywords
+@on_one_blas_thread
+def self_symmetry(
+    mesh: Mesh, *, n_vertices: int = WORKING, progress: Callable[[str, float], None] | None = None
+) -> list[Correspondence]:
+    """The intrinsic symmetries of a surface, best first, the identity excluded; see the abstract: size does not matter.
+
+    Each is a `Correspondence` of the mesh with itself. It is found whether or not the pose is symmetric, and also where
+    one of two ears or legs is larger than the other: proposals come from the scale-invariant metric (2.1) among others,
+    and parts may grow in the registration. Most animals have one, from left to right; an ellipsoid has seven.
+
+    `status` is GOOD for a symmetry. On a surface that has none the list holds the self-map that comes closest, alone,
+    with status POOR; it is empty when there is not even that. `meta["symmetry"]` says of each whether it is
+    `reversing` orientation, its `stress` (mean change of distances over the mean distance), `orientation` (share of the
+    area that keeps it, minus the rest), `energy` of the deformation, and `twice`: how far, on average and in root
+    areas, points are from home after the map is done twice - 0 for an involution, and then a measure of its error.
+
+    A mesh with more vertices than `n_vertices` is solved on a decimated copy and the maps are carried back; where it
+    can not be decimated (edges with three faces) the whole is used. A surface of revolution has more symmetries than
+    can be listed: some of them are. `progress(stage, fraction)` is called as work goes on. Raises `MeshError`,
+    `TooFewVertices` (E113), and ValueError when `n_vertices` is below 100.
+    """
+    if n_vertices < 100:
+        raise ValueError(f"n_vertices must be at least 100, not {n_vertices}: fewer do not show a shape")
+    report = progress or (lambda stage, fraction: None)
+    started = time.perf_counter()
+    mesh = Mesh.from_object(mesh)
+    report("measuring", 0.0)
+    surface = measure(mesh)
+    copy = surface if mesh.n_vertices <= n_vertices else copied(surface, n_vertices)
+    found = likely(list(self_maps(copy, copy.reflection, LeastSquares(), report)))
+    good = [m for m in found if m.plausible]
+    seconds = round(time.perf_counter() - started, 3)
+    report("done", 1.0)
+    settings = {"parameters": {"n_vertices": n_vertices}, "seconds": seconds}
+    told = [_told(m, settings, MatchStatus.GOOD if good else MatchStatus.POOR) for m in good or found[:1]]
+    carrier = Carrier(surface, surface, (copy, copy))
+    return told if copy is surface else [carrier.carried(one) for one in told]
+
+
+def _told(found: SelfMap, settings: dict[str, object], status: MatchStatus) -> Correspondence:
+    """The self-map as a Correspondence."""
+    evidence = found.embedded.evidence
+    figures = {
+        "reversing": found.embedded.pair.reflected,
+        "stress": evidence.stress,
+        "orientation": evidence.orientation,
+        "energy": found.energy,
+        "twice": found.twice,
+    }
+    return replace(answer([found.embedded], {**settings, "symmetry": figures}), status=status)

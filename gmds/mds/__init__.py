@@ -1,0 +1,1 @@
+"""Sec. 5: samples placed on the target so that distances agree; problem, solver, losses."""

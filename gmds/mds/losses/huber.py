@@ -1,0 +1,35 @@
+"""Huber's loss."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from geodesics.arrays import Floats
+from gmds.mds.losses.base import SmoothLoss
+
+
+@dataclass(frozen=True)
+class Huber(SmoothLoss):
+    """The mean of r^2 where |r| <= t, and of t (2 |r| - t) beyond; t is in mean distances (Huber 1964)."""
+
+    threshold: float = 0.1
+
+    def __post_init__(self) -> None:
+        if not self.threshold > 0:
+            raise ValueError(f"the threshold of Huber's loss must be positive, not {self.threshold}")
+
+    def rho(self, residuals: Floats) -> Floats:
+        """min(|r|, t) (2 |r| - min(|r|, t))."""
+        size = np.abs(residuals)
+        inner = np.minimum(size, self.threshold)
+        return inner * (2 * size - inner)
+
+    def slope(self, residuals: Floats) -> Floats:
+        """2 r, held between -2 t and 2 t."""
+        return 2 * np.clip(residuals, -self.threshold, self.threshold)
+
+    def curvature(self, residuals: Floats) -> Floats:
+        """2 min(1, t / |r|), of the parabola that touches the loss at r and lies above it."""
+        return 2 * self.threshold / np.maximum(np.abs(residuals), self.threshold)

@@ -1,0 +1,27 @@
+"""Least squares."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from geodesics.arrays import Floats
+from gmds.mds.losses.base import SmoothLoss
+
+
+@dataclass(frozen=True)
+class LeastSquares(SmoothLoss):
+    """The mean of r^2: the generalised stress of Bronstein, Bronstein and Kimmel (2006) with p = 2."""
+
+    def rho(self, residuals: Floats) -> Floats:
+        """r^2."""
+        return residuals**2
+
+    def slope(self, residuals: Floats) -> Floats:
+        """2 r."""
+        return 2 * residuals
+
+    def curvature(self, residuals: Floats) -> Floats:
+        """2."""
+        return np.full_like(residuals, 2.0)

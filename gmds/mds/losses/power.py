@@ -1,0 +1,38 @@
+"""Powers of the residual."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from geodesics.arrays import Floats
+from gmds.mds.losses.base import SmoothLoss
+
+
+@dataclass(frozen=True)
+class Power(SmoothLoss):
+    """The mean of (r^2 + s^2)^(p/2) - s^p: the generalised stress with exponent p >= 1, rounded at s mean distances.
+
+    p = 1 is the mean absolute residual; large p approaches the maximum.
+    """
+
+    exponent: float = 4.0
+    rounding: float = 1e-3
+
+    def __post_init__(self) -> None:
+        if not (1 <= self.exponent < np.inf and 0 < self.rounding < np.inf):
+            raise ValueError(f"{self} needs an exponent of at least 1 and a positive rounding")
+
+    def rho(self, residuals: Floats) -> Floats:
+        """(r^2 + s^2)^(p/2) - s^p."""
+        return np.hypot(residuals, self.rounding) ** self.exponent - self.rounding**self.exponent
+
+    def slope(self, residuals: Floats) -> Floats:
+        """p r (r^2 + s^2)^(p/2 - 1)."""
+        return self.exponent * residuals * np.hypot(residuals, self.rounding) ** (self.exponent - 2)
+
+    def curvature(self, residuals: Floats) -> Floats:
+        """p max(1, p - 1) (r^2 + s^2)^(p/2 - 1), at least the second derivative."""
+        factor = self.exponent * max(1.0, self.exponent - 1)
+        return factor * np.hypot(residuals, self.rounding) ** (self.exponent - 2)

@@ -1,0 +1,52 @@
+"""From few samples to many."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from geodesics import SurfacePoints
+from geodesics.points import joined
+from gmds.mds.losses import Loss
+from gmds.mds.problem import Problem
+from gmds.mds.prolongation import prolonged, relocated
+from gmds.mds.solver import Solution, solve
+
+
+def solve_multiresolution(
+    problem: Problem,
+    start: SurfacePoints,
+    loss: Loss | None = None,
+    *,
+    growth: float = 2.0,
+    max_iterations: int = 50,
+    tolerance: float = 1e-3,
+    progress: Callable[[str, float], None] | None = None,
+) -> Solution:
+    """Solve for the first samples, given as `start` (k,), then for `growth` times as many, until all are placed.
+
+    The samples of the problem should come in farthest-point order, so that the first k cover the surface. Between
+    two levels each new sample goes to the vertex that best keeps its distances to the placed ones, and samples that
+    would fare better elsewhere on the target are moved there (Bronstein, Bronstein and Kimmel 2006). `max_iterations`
+    and `tolerance` are those of `solve` at each level. Raises `ValueError` when `start` is empty or too long, or
+    `growth` is not above 1.
+    """
+    count = len(start)
+    if not 2 <= count <= len(problem) or not growth > 1:
+        raise ValueError(f"cannot grow {count} of {len(problem)} samples by a factor of {growth}: need 2 and above 1")
+    levels = [count]
+    while levels[-1] < len(problem):
+        levels.append(min(len(problem), int(np.ceil(growth * levels[-1]))))
+    points = start
+    for level, size in enumerate(levels):
+        part = problem.head(size)
+        if size > len(points):
+            new = prolonged(part.distance_table()[len(points) :, : len(points)], problem.target_distance, points)
+            points = joined(points, new)
+        points = relocated(part.at(points)).points
+        solution = solve(part, points, loss, max_iterations=max_iterations, tolerance=tolerance)
+        points = solution.points
+        if progress is not None:
+            progress("embedding", (level + 1) / len(levels))
+    return solution

@@ -1,0 +1,112 @@
+"""Distances between points of one surface, and how they change when the points move."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol, cast
+
+import numpy as np
+
+from geodesics import Distance, SurfacePoints
+from geodesics.arrays import Bools, Floats
+from geodesics.topology.components import vertex_components
+from geodesics.tracing import barycentric_gradient, gradient
+
+
+class EmbeddedDistance(Distance, Protocol):
+    """A distance that is Euclidean in an embedding linear on faces: d(x, y) = |e(x) - e(y)|, e (n, k) at the vertices.
+
+    A `signature` (k,) of +1 and -1, if there is one, makes it pseudo-Euclidean: |v|^2 = sum of signature * v^2.
+    """
+
+    @property
+    def embedding(self) -> Floats:
+        """e at the vertices, (n, k)."""
+
+
+@dataclass(frozen=True, eq=False)
+class EmbeddedPairs:
+    """All distances between p points of an embedding, exact also inside the faces, as in (3.1) and (3.2)."""
+
+    points: SurfacePoints
+    embedding: Floats
+    signature: Floats
+    reach: Bools | None = None
+
+    def distances(self) -> Floats:
+        """Symmetric (p, p); +inf where `reach` (p, p) is False."""
+        e = self.points.interpolate(self.embedding)
+        gram = (e * self.signature) @ e.T
+        norm = np.diagonal(gram)
+        square = norm[:, None] + norm[None] - (gram + gram.T)
+        np.fill_diagonal(square, 0.0)
+        distances = np.sqrt(np.maximum(square, 0.0))
+        return distances if self.reach is None else np.where(self.reach, distances, np.inf)
+
+    def derivatives(self, distances: Floats) -> Floats:
+        """(p, 2, p): of d(x_i, x_j) by the in-face displacement of x_i, = (e_i - e_j) . grad e_i / d; 0 where d = 0."""
+        e = self.points.interpolate(self.embedding) * self.signature
+        slope = gradient(self.points, self.embedding).transpose(0, 2, 1)  # (p, 2, k)
+        product = (slope.reshape(-1, slope.shape[2]) @ e.T).reshape(len(e), 2, len(e))
+        index = np.arange(len(e))
+        product = product[index, :, index][:, :, None] - product
+        with np.errstate(divide="ignore"):
+            inverse = np.where(distances > 0, 1 / distances, 0.0)
+        return product * inverse[:, None, :]
+
+
+@dataclass(frozen=True, eq=False)
+class FieldPairs:
+    """All distances between p points by the distance field (p, n) of each of them, linear on faces.
+
+    Both directions are averaged. Pairs that can not reach each other are +inf.
+    """
+
+    points: SurfacePoints
+    fields: Floats
+
+    def distances(self) -> Floats:
+        """Symmetric (p, p)."""
+        corners = self.fields[:, self.points.mesh.faces[self.points.face]]
+        with np.errstate(invalid="ignore"):  # 0 * inf at a corner without weight
+            there = np.nansum(corners * self.points.barycentric, axis=2)
+        distances = 0.5 * (there + there.T)
+        np.fill_diagonal(distances, 0.0)
+        return distances
+
+    def derivatives(self, distances: Floats) -> Floats:
+        """(p, 2, p): of d(x_i, x_j) by the in-face displacement of x_i, = the slope of the field of x_j at x_i."""
+        corners = self.fields[:, self.points.mesh.faces[self.points.face]]
+        corners = np.where(np.isfinite(corners).all(axis=2, keepdims=True), corners, 0.0)
+        return np.einsum("qpk,pkx->pxq", corners, barycentric_gradient(self.points))
+
+
+class Pairs(Protocol):
+    """All distances between p points of a surface."""
+
+    def distances(self) -> Floats:
+        """Symmetric (p, p), +inf where a point can not reach another."""
+
+    def derivatives(self, distances: Floats) -> Floats:
+        """(p, 2, p): entry [i, :, j] is the derivative of d(x_i, x_j) by the in-face displacement of x_i."""
+
+
+def pairwise(distance: Distance, points: SurfacePoints) -> Pairs:
+    """Distances between the points: as the distance itself says, in its embedding if it has one, else by fields."""
+    if hasattr(distance, "pairs"):
+        return cast(Pairs, distance.pairs(points))
+    if hasattr(distance, "embedding"):
+        embedding = cast(EmbeddedDistance, distance).embedding
+        signature = getattr(distance, "signature", np.ones(embedding.shape[1]))
+        return EmbeddedPairs(points, embedding, signature, _reach(distance, points))
+    return FieldPairs(points, distance.field(points))
+
+
+def _reach(distance: Distance, points: SurfacePoints) -> Bools | None:
+    """Which points can reach each other (p, p), asked once per component of the mesh; None: all of them."""
+    label = vertex_components(points.mesh)[points.mesh.faces[points.face, 0]]
+    present, first, component = np.unique(label, return_index=True, return_inverse=True)
+    if len(present) == 1:
+        return None
+    finite = np.isfinite(distance.field(points[first])[:, points.mesh.faces[points.face, 0]])
+    return finite[component.reshape(-1)]

@@ -1,0 +1,181 @@
+"""What is asked: place the samples of one surface on another so that distances agree."""
+
+from __future__ import annotations
+
+import copy
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from geodesics import Distance, SurfacePoints
+from geodesics.arrays import Floats, Integers
+from geodesics.caching import cached_property
+from geodesics.tracing import barycentric_gradient
+from gmds.mds.jacobian import Jacobian, scaled
+from gmds.mds.pair_distances import Pairs, pairwise
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class Problem:
+    """Generalised multidimensional scaling: find rho with d_Q(rho_i, rho_j) close to d_S(s_i, s_j) (sec. 5).
+
+    The residuals are r_ij = sqrt(w_ij) (d_S(s_i, s_j) - d_Q(rho_i, rho_j)) / unit, over the pairs i < j; `unit` is the
+    mean of d_S over them, so a residual of 0.05 is a twentieth of the mean distance. Pairs of samples that can not
+    reach each other are left out.
+
+    Parameters: distances of the two surfaces, p samples of the source, `weights` (p,) of the samples (w_ij = w_i w_j)
+    or (p, p) of the pairs, scaled to mean 1, and `pairs` (r, 2) for asking of some pairs only.
+    Raises `ValueError` when shapes disagree, fewer than two samples can reach each other, or a weight is negative.
+    """
+
+    source_points: SurfacePoints
+    target_distance: Distance
+    first: Integers
+    second: Integers
+    source_distances: Floats
+    root_weights: Floats
+    unit: float
+
+    def __init__(
+        self,
+        source_distance: Distance,
+        source_points: SurfacePoints,
+        target_distance: Distance,
+        weights: ArrayLike | None = None,
+        pairs: ArrayLike | None = None,
+    ) -> None:
+        count = len(source_points)
+        first, second = _pairs(pairs, count)
+        lengths = pairwise(source_distance, source_points).distances()[first, second]
+        reached = np.isfinite(lengths)
+        if not (lengths[reached] > 0).any():
+            raise ValueError("a problem needs at least two samples at a positive, finite distance from each other")
+        first, second, lengths = first[reached], second[reached], lengths[reached]
+        values = {
+            "source_points": source_points,
+            "target_distance": target_distance,
+            "first": first,
+            "second": second,
+            "source_distances": lengths,
+            "root_weights": np.sqrt(_pair_weights(weights, first, second, count)),
+            "unit": float(lengths.mean()),
+        }
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
+
+    def __len__(self) -> int:
+        """Number of samples p."""
+        return len(self.source_points)
+
+    def towards(self, target_distance: Distance) -> Problem:
+        """The same samples and source distances, placed by another distance of the target."""
+        other = copy.copy(self)
+        object.__setattr__(other, "target_distance", target_distance)
+        return other
+
+    def head(self, count: int) -> Problem:
+        """The problem of the first `count` samples alone; `unit` stays."""
+        other, kept = copy.copy(self), self.second < count
+        object.__setattr__(other, "source_points", self.source_points[:count])
+        for name in ("first", "second", "source_distances", "root_weights"):
+            object.__setattr__(other, name, getattr(self, name)[kept & (self.first < count)])
+        return other
+
+    def at(self, points: SurfacePoints) -> Placement:
+        """The problem seen from target points (p,), with residuals and their derivative."""
+        if len(points) != len(self):
+            raise ValueError(f"{len(self)} samples need {len(self)} target points, not {len(points)}")
+        if points.mesh is not self.target_distance.mesh:
+            raise ValueError("the points lie on another mesh than the target distance measures")
+        return Placement(self, points, pairwise(self.target_distance, points))
+
+    def distance_table(self) -> Floats:
+        """Source distances (p, p) of the pairs that are asked for, NaN elsewhere."""
+        table = np.full((len(self), len(self)), np.nan)
+        table[self.first, self.second] = table[self.second, self.first] = self.source_distances
+        return table
+
+    def compare(self, distances: Floats) -> Floats:
+        """Residuals (r,) of target distances (p, p); a pair out of reach counts as three mean distances apart."""
+        reached = distances[self.first, self.second]
+        reached = np.where(np.isposinf(reached), 3 * self.unit, reached)
+        return self.root_weights * (self.source_distances - reached) / self.unit
+
+
+@dataclass(frozen=True, eq=False)
+class Placement:
+    """The samples of a problem placed at `points` (p,) of the target."""
+
+    problem: Problem
+    points: SurfacePoints
+    pairs: Pairs
+
+    @cached_property
+    def distances(self) -> Floats:
+        """Distances between the target points, (p, p)."""
+        return self.pairs.distances()
+
+    @cached_property
+    def residuals(self) -> Floats:
+        """r_ij (r,), without dimension."""
+        return self.problem.compare(self.distances)
+
+    @cached_property
+    def shares(self) -> Floats:
+        """The sum of the squared residuals of each sample, (p,)."""
+        problem, square = self.problem, self.residuals**2
+        share = [np.bincount(side, square, len(problem)) for side in (problem.first, problem.second)]
+        return np.add(*share).astype(np.float64)
+
+    @cached_property
+    def derivatives(self) -> Floats:
+        """Of the residuals by the in-face displacement of their two points, (r, 2, 2)."""
+        first, second = self.problem.first, self.problem.second
+        slope = self.pairs.derivatives(self.distances)
+        raw = np.stack([slope[first, :, second], slope[second, :, first]], axis=1)
+        factor = np.where(np.isfinite(self.distances[first, second]), self.problem.root_weights, 0.0)
+        return raw * (-factor / self.problem.unit)[:, None, None]
+
+    @cached_property
+    def jacobian(self) -> Jacobian:
+        """The derivative in steps measured in distances."""
+        problem = self.problem
+        weight = np.zeros(len(problem))
+        np.add.at(weight, problem.first, problem.root_weights**2)
+        np.add.at(weight, problem.second, problem.root_weights**2)
+        smallest = np.finfo(float).tiny
+        return scaled(problem.first, problem.second, self.derivatives, len(problem), np.maximum(weight, smallest))
+
+    @cached_property
+    def walled_jacobian(self) -> Jacobian:
+        """The same with walls: no weight of a point may fall below zero, so that no point leaves its face."""
+        slope = np.einsum("pkx,pxy->pky", barycentric_gradient(self.points), self.jacobian.frames)
+        return replace(self.jacobian, walls=(self.points.barycentric, slope))
+
+
+def _pairs(pairs: ArrayLike | None, count: int) -> tuple[Integers, Integers]:
+    """Index arrays i < j: all pairs, or those asked for."""
+    if pairs is None:
+        first, second = np.triu_indices(count, 1)
+        return first.astype(np.int64), second.astype(np.int64)
+    chosen = np.asarray(pairs)
+    if chosen.ndim != 2 or chosen.shape[1] != 2 or not np.issubdtype(chosen.dtype, np.integer):
+        raise ValueError(f"pairs must be whole numbers of shape (r, 2), not {chosen.dtype} of shape {chosen.shape}")
+    if chosen.size and (chosen.min() < 0 or chosen.max() >= count or (chosen[:, 0] == chosen[:, 1]).any()):
+        raise ValueError(f"pairs must join two different samples of 0 .. {count - 1}")
+    chosen = np.unique(np.sort(chosen, axis=1), axis=0).astype(np.int64)
+    return np.ascontiguousarray(chosen[:, 0]), np.ascontiguousarray(chosen[:, 1])
+
+
+def _pair_weights(weights: ArrayLike | None, first: Integers, second: Integers, count: int) -> Floats:
+    """w_ij of each pair, scaled to mean 1."""
+    if weights is None:
+        return np.ones(len(first))
+    w = np.asarray(weights, dtype=np.float64)
+    if w.shape not in ((count,), (count, count)):
+        raise ValueError(f"weights must have shape ({count},) or ({count}, {count}), not {w.shape}")
+    pair = w[first] * w[second] if w.ndim == 1 else 0.5 * (w[first, second] + w[second, first])
+    if not np.isfinite(pair).all() or (pair < 0).any() or not pair.any():
+        raise ValueError("weights must be finite, not negative, and not all zero")
+    return pair / pair.mean()

@@ -1,1 +1,0 @@
-"""What is on the page that `gmds.report` writes: the parts of it, and what fills them."""

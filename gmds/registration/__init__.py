@@ -1,0 +1,8 @@
+"""One surface deformed in space onto another: energy, closest points, residuals, the iteration."""
+
+from __future__ import annotations
+
+from geodesics.moved_paths import names_moved
+from gmds.moved_paths import MOVED
+
+__getattr__ = names_moved(__name__, MOVED[__name__])

@@ -1,0 +1,90 @@
+"""Which point of a deformed surface goes with which point of another: the closest, in position, normal and spectrum."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from geodesics import SurfacePoints
+from geodesics.arrays import Floats, Integers
+from gmds.registration.deformable import Geometry
+from gmds.surface.view import View
+
+Single = NDArray[np.float32]
+
+SPECTRAL_WEIGHT = 0.15  # root areas that root mean square eigenfunctions, all taken together, are worth
+
+
+@dataclass(frozen=True, eq=False)
+class Pairing:
+    """Closest points of a deformed source and a target, both ways: of every source vertex, of every usable target one.
+
+    `points` (n,) of the target, with the vertices `near` (n,) them; vertices `back` (q,) of the source.
+    `weight` (n,), `weight_back` (q,): areas, or 0 where the closest point is on a boundary: what it should be paired
+    with may be missing.
+    """
+
+    points: SurfacePoints
+    near: Integers
+    back: Integers
+    weight: Floats
+    weight_back: Floats
+
+    @classmethod
+    def of(
+        cls,
+        source: Geometry,
+        target: Geometry,
+        y: Floats,
+        partial: bool,
+        views: tuple[View, View] | None = None,
+        before: Pairing | None = None,
+    ) -> Pairing:
+        """The pairing with the source at y (n, 3); after a small move, near the one `before` it.
+
+        With `views`, of the undeformed surfaces, their eigenfunctions count as well: those of the source, as the
+        functional map of the closest points carries them over, beside those of the target (as in ZoomOut: Melzi et al.
+        2019). They keep round limbs from turning about their axis, where position and normal say nothing.
+        """
+        ours, theirs = source.moved_features(y), target.features
+        if before is None:
+            near = target.usable[target.tree.query(ours)[1]]
+            back = source.usable[cKDTree(ours[source.usable]).query(theirs[target.usable])[1]]
+        else:
+            near = target.nearest(ours, theirs, before.near)
+            back = source.nearest(theirs[target.usable], ours, before.back)
+        if views is not None:
+            here, there = _spectral_rows(source, views, near)
+            ours, theirs = np.hstack([ours, here]), np.hstack([theirs, there])
+            near, back = target.nearest(ours, theirs, near), source.nearest(theirs[target.usable], ours, back)
+        points = target.closest(ours, theirs, near)
+        weight, weight_back = source.areas, target.areas[target.usable]
+        if partial:
+            weight = np.where(target.on_boundary(points), 0.0, weight)
+            weight_back = np.where(source.boundary[back], 0.0, weight_back)
+        return cls(points, near, back, weight, weight_back)
+
+    def springs(self, source: Geometry, target: Geometry) -> tuple[Floats, Floats]:
+        """Weights (n,) and ends (n, 3) of the springs that pull on vertices: to the target, and those from it."""
+        place, n = target.mesh.vertices[target.usable], source.mesh.n_vertices
+        weights = self.weight + np.bincount(self.back, self.weight_back, minlength=n)
+        total = self.weight[:, None] * self.points.positions
+        for k in range(3):
+            total[:, k] += np.bincount(self.back, self.weight_back * place[:, k], minlength=n)
+        return weights, total / np.maximum(weights, np.finfo(float).tiny)[:, None]
+
+
+def _spectral_rows(source: Geometry, views: tuple[View, View], images: Integers) -> tuple[Single, Single]:
+    """Eigenfunctions (n, k), (q, k) of both surfaces as the map to `images` (n,) identifies them, weighted.
+
+    In single precision. Column j holds target function j, and what is left of it when it is pulled back by the map and
+    written in source functions.
+    """
+    k = min(view.functions.shape[1] for view in views)
+    ours, theirs = (view.functions[:, :k].astype(np.float32) for view in views)
+    weighted = theirs * np.float32(SPECTRAL_WEIGHT / np.sqrt(k))
+    areas = source.areas.astype(np.float32)
+    return ours @ (ours.T @ (areas[:, None] * weighted[images])), weighted

@@ -1,0 +1,144 @@
+"""A surface as registration sees it: vertices, normals, and what it costs to bend it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.spatial import cKDTree
+
+from geodesics import Mesh, SurfacePoints
+from geodesics.arrays import Bools, Floats, Integers
+from geodesics.caching import cached_property
+from geodesics.closest import closest_on_triangles
+from geodesics.one_ring import one_ring_areas
+from geodesics.repair.decimation import decimated
+from geodesics.topology.components import boundary_vertices
+from geodesics.topology.edges import proper_faces
+from gmds._kernels.closest import closest_on_faces, nearest_around
+from gmds.registration.anchors import Anchors
+from gmds.registration.elasticity import Elasticity
+from gmds.surface.measured import Surface
+
+OUTLINE_FACES = 1600
+NORMAL_WEIGHT = 0.1  # root areas that a right angle between normals is worth, over root 2
+LOOKS = 4  # from vertex to vertex for the closest point
+STEPS = 2  # from vertex to vertex for the closest vertex
+
+
+@dataclass(frozen=True, eq=False)
+class Geometry:
+    """A mesh of unit area, and for each vertex the vertex `origin` (n,) it stands for on the surface it outlines.
+
+    `curvature` (n,): squashed mean curvature, which tells the chest from the back. `anchors`: what
+    is known of where its points belong on the surface it is registered to.
+    """
+
+    mesh: Mesh
+    origin: Integers
+    curvature: Floats
+    anchors: Anchors | None = None
+
+    @classmethod
+    def of(cls, surface: Surface) -> Geometry:
+        """The whole surface."""
+        return cls(surface.mesh, np.arange(surface.mesh.n_vertices), surface.squashed_curvature)
+
+    @classmethod
+    def outline(cls, surface: Surface, n_faces: int = OUTLINE_FACES) -> Geometry:
+        """The surface with about `n_faces` faces, by collapsing edges; the whole where that can not be done."""
+        mesh = decimated(surface.mesh, n_faces)
+        if mesh is None:
+            return cls.of(surface)
+        used = np.unique(surface.mesh.faces[proper_faces(surface.mesh.faces)])
+        origin = used[cKDTree(surface.mesh.vertices[used]).query(mesh.vertices)[1]]
+        return cls(mesh, origin, surface.squashed_curvature[origin])
+
+    @cached_property
+    def usable(self) -> Integers:
+        """Vertices with area."""
+        return np.flatnonzero(self.areas > 0)
+
+    @cached_property
+    def boundary(self) -> Bools:
+        """Whether a vertex (n,) is on an edge of a single face."""
+        return boundary_vertices(self.mesh)
+
+    def on_boundary(self, points: SurfacePoints) -> Bools:
+        """Whether points (p,) of the surface lie on its boundary."""
+        inside = np.where(self.boundary[self.mesh.faces[points.face]], 0.0, points.barycentric)
+        return np.asarray(inside.sum(axis=1) <= 0, dtype=np.bool_)
+
+    @cached_property
+    def areas(self) -> Floats:
+        """Area (n,) around each vertex; the sum is 1."""
+        areas = one_ring_areas(self.mesh)
+        return np.asarray(areas / areas.sum(), dtype=np.float64)
+
+    @cached_property
+    def elasticity(self) -> Elasticity:
+        """What it costs to deform it."""
+        return Elasticity(self.mesh, self.areas)
+
+    @cached_property
+    def normals(self) -> Floats:
+        """Unit normals (n, 3), means over the faces around each vertex weighted by area."""
+        return self.features[:, 3:] / NORMAL_WEIGHT
+
+    @cached_property
+    def features(self) -> Floats:
+        """Positions and weighted normals (n, 6)."""
+        return self.moved_features(self.mesh.vertices)
+
+    def moved_features(self, y: Floats) -> Floats:
+        """The features (n, 6) after moving the vertices to y (n, 3)."""
+        a, b, c = (y[corner] for corner in self.mesh.faces.T)
+        normals = self._around @ np.cross(b - a, c - a)
+        size = np.linalg.norm(normals, axis=1, keepdims=True)
+        return np.hstack([y, NORMAL_WEIGHT * normals / np.maximum(size, np.finfo(float).tiny)])
+
+    @cached_property
+    def _around(self) -> sp.csr_matrix:
+        """Sums over the faces around each vertex, (n, m)."""
+        n, m = self.mesh.n_vertices, self.mesh.n_faces
+        rows = np.repeat(np.arange(m), 3)
+        return sp.csr_matrix((np.ones(3 * m), (self.mesh.faces.ravel(), rows)), shape=(n, m))
+
+    @cached_property
+    def tree(self) -> cKDTree:
+        """Search tree of the features of the usable vertices."""
+        return cKDTree(self.features[self.usable])
+
+    @cached_property
+    def places(self) -> cKDTree:
+        """Search tree of the vertices in space."""
+        return cKDTree(self.mesh.vertices)
+
+    @cached_property
+    def _rings(self) -> tuple[Integers, Integers]:
+        """Faces of each vertex, one after the other, and where those of a vertex start."""
+        corners = self.mesh.faces.ravel()
+        counts = np.bincount(corners, minlength=self.mesh.n_vertices)
+        return np.argsort(corners, kind="stable") // 3, np.concatenate([[0], np.cumsum(counts)])
+
+    @cached_property
+    def _neighbours(self) -> tuple[Integers, Integers]:
+        """Vertices on a face with each vertex, one after the other, and where those of a vertex start."""
+        together = sp.csr_matrix(self._around @ self._around.T)
+        return together.indices.astype(np.int64), together.indptr.astype(np.int64)
+
+    def closest(self, queries: Floats, rows: Floats, guess: Integers) -> SurfacePoints:
+        """Points of the surface, embedded by `rows` (n, k), closest to `queries` (p, k), near the vertices `guess`."""
+        q, r = np.ascontiguousarray(queries), np.ascontiguousarray(rows)
+        face, weight, _ = closest_on_faces(q, r, self.mesh.faces, *self._rings, guess, LOOKS)
+        return SurfacePoints(self.mesh, face, weight)
+
+    def nearest(self, queries: Floats, rows: Floats, guess: Integers) -> Integers:
+        """Vertices, embedded by `rows` (n, k), closest to `queries` (p, k), near the vertices `guess` (p,)."""
+        return nearest_around(queries.astype(np.float32), rows.astype(np.float32), *self._neighbours, guess, STEPS)
+
+    def carried(self, y: Floats, points: Floats) -> Floats:
+        """Where points (p, 3) on the surface go when its vertices go to y (n, 3)."""
+        face, weight, _ = closest_on_triangles(points, self.mesh.vertices, self.mesh.faces)
+        return np.asarray(np.einsum("pk,pkj->pj", weight, y[self.mesh.faces[face]]), dtype=np.float64)

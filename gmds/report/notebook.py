@@ -1,0 +1,43 @@
+"""How a map shows itself in a notebook: a small picture and a few figures, whatever is installed."""
+
+from __future__ import annotations
+
+import base64
+import contextlib
+import html
+
+from gmds.maps.point_map import PointMap
+from gmds.pictures.panels import composed, encoded, map_panels
+from gmds.pictures.software import software
+from gmds.report.tables import facts, table_rows
+
+PIXELS = 260  # across each view
+LARGE = 200_000  # faces of both surfaces, above which there is no picture: it would take seconds
+
+
+def mimebundle(answer: PointMap) -> dict[str, str]:
+    """The map as plain text, and as HTML: a table with a picture above it if one can be drawn soon. Never raises."""
+    bundle = {"text/plain": repr(answer)}
+    with contextlib.suppress(Exception):  # a cell that shows a map must not fail because of how it looks
+        bundle["text/html"] = f"<div>{_picture(answer)}{_table(answer)}</div>"
+    return bundle
+
+
+def _table(answer: PointMap) -> str:
+    state = table_rows([("status", f"{answer.status.name}: {answer.status.value}")])
+    hint = "<code>.report('map.html')</code> makes a page to turn it in a browser."
+    return f'<table style="text-align:left">{state}{facts(answer, None)}</table><small>{hint}</small>'
+
+
+def _picture(answer: PointMap) -> str:
+    """The picture as an element of a page; nothing where it can not be drawn, or not soon."""
+    if answer.source.n_faces + answer.target.n_faces > LARGE:
+        return ""
+    try:
+        panels = map_panels(answer, pixels=PIXELS)
+        picture = encoded(composed(panels, software([panel.shot for panel in panels])), ".png")
+    except Exception:
+        return ""
+    data = base64.b64encode(picture).decode("ascii")
+    text = html.escape("source and target; corresponding points have the same colour")
+    return f'<img alt="{text}" src="data:image/png;base64,{data}">'

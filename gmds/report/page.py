@@ -1,0 +1,116 @@
+"""A page to look at a map in a browser: one file, no network, both surfaces to be turned."""
+
+from __future__ import annotations
+
+import functools
+import html
+import os
+from importlib.resources import files
+from string import Template
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from geodesics import Mesh
+from geodesics.arrays import Floats
+from geodesics.errors import MissingExtra
+from geodesics.io import atomic_write
+from gmds.maps.point_map import PointMap
+from gmds.pictures.camera import Direction, alignment, broadside
+from gmds.pictures.colours import MISSING, css, value_colours
+from gmds.report import tables
+from gmds.report.content import FOUND, LOST, content
+from gmds.report.drawing import Drawing, drawing
+from gmds.report.packing import fingerprint_of, packed, packed_data
+
+SCRIPTS = ("unpack.js", "camera.js", "scene.js", "charts.js", "page.js", "controls.js")
+
+
+def write_report(
+    path: str | os.PathLike[str],
+    answer: PointMap,
+    errors: ArrayLike | None = None,
+    *,
+    title: str = "Correspondence",
+    names: tuple[str, str] = ("source", "target"),
+    up: Direction = (0, 0, 1),
+) -> None:
+    """One self-contained HTML page on a map: both surfaces in 3-D, corresponding points in the same colour.
+
+    Pointing at one surface lights up the partner on the other. The page also shows the distortion, what has no
+    counterpart, and every candidate of the map; and `errors`, geodesic over sqrt of the target's area, per source
+    vertex: (n,), NaN where the truth is not known, or (k, n) with a row for the map and for each of the first k - 1
+    candidates. A surface with more than 12,000 vertices is drawn as a copy with some 8,000; what is told of a vertex
+    holds for the whole surface. `up` is up in the source's coordinates; the target is turned to be seen from the same
+    side. Titles and names are shown as they are, never read as markup; no script but the page's own may run.
+    Raises `MissingExtra` without the extra `viz`, `OSError` when the file cannot be written.
+    """
+    library = _library()
+    judged = _checked(errors, answer)
+    view = broadside(answer.source, up, azimuth=0, elevation=0)
+    drawn = drawing(answer.source, view), drawing(answer.target, view @ alignment(answer))
+    data = content(answer, judged, drawn, names)
+    script = "".join(_part(name) for name in SCRIPTS)
+    ramp = ", ".join(css(value_colours(np.linspace(0, 1, 10), 0, 1)))
+    badge, verdict = tables.VERDICTS[answer.status]
+    page = Template(_part("report.html")).substitute(
+        hashes=f"{fingerprint_of(library)} {fingerprint_of(script)}",
+        style=Template(_part("report.css")).substitute(ramp=ramp, missing=css(np.array([MISSING]))[0]),
+        title=html.escape(title),
+        badge=badge,
+        verdict=verdict,
+        status=html.escape(answer.status.value),
+        cards=tables.cards(answer, judged),
+        modes=tables.choices([(mode["key"], mode["label"]) for mode in data["modes"]]),
+        swatches=tables.swatches(zip(css(np.array([FOUND, LOST])), ("has a counterpart", "has none"), strict=True)),
+        source=html.escape(names[0]),
+        target=html.escape(names[1]),
+        source_size=_size(answer.source, drawn[0]),
+        target_size=_size(answer.target, drawn[1]),
+        advice=tables.advice(answer),
+        facts=tables.facts(answer, judged),
+        made=tables.made(answer),
+        data=packed_data(data),
+        library=_packed_library(),
+        script=script,
+    )
+    with atomic_write(path) as stream:
+        stream.write(page.encode("utf-8", "replace"))
+
+
+def _checked(errors: ArrayLike | None, answer: PointMap) -> Floats | None:
+    """Errors as (k, n), k at most the number of maps."""
+    if errors is None:
+        return None
+    rows = np.atleast_2d(np.asarray(errors, dtype=np.float64))
+    n, most = answer.source.n_vertices, 1 + len(answer.candidates)
+    if rows.ndim != 2 or rows.shape[1] != n or not 1 <= len(rows) <= most:
+        raise ValueError(
+            f"there must be one error for each of the {n} vertices, in at most {most} rows, not an array of shape "
+            f"{np.shape(errors)}"
+        )
+    return rows
+
+
+def _size(mesh: Mesh, drawn: Drawing) -> str:
+    """How many vertices a surface has, and how many of them are drawn."""
+    whole = f"{mesh.n_vertices:,} vertices"
+    return whole if len(drawn.origin) == mesh.n_vertices else f"{whole}, drawn with {len(drawn.origin):,}"
+
+
+def _part(name: str) -> str:
+    return (files("gmds.report") / name).read_text("utf-8")
+
+
+def _library() -> str:
+    try:
+        from plotly.offline import get_plotlyjs
+    except ImportError as error:
+        raise MissingExtra("a report needs plotly; install it with: pip install 'gmds[viz]'") from error
+    return str(get_plotlyjs())
+
+
+@functools.cache
+def _packed_library() -> str:
+    """A third of its size, in less than a second, once."""
+    return packed(_library())

@@ -1,0 +1,93 @@
+"""From a rough map to a good one, in the metric that suits the pair."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from geodesics.arrays import Floats, Integers
+from geodesics.caching import cached_property
+from gmds.spectral.conformal_metrics import ConformalClass
+from gmds.spectral.functional_maps import nearest_rows, spectral_upsampling
+from gmds.surface.measured import Surface
+from gmds.surface.view import View
+
+# heat time, in units of the area, that smooths the factor, and the eigenfunctions used after; coarse to fine
+ROUNDS: tuple[tuple[float, tuple[int, ...]], ...] = (
+    (3e-3, (16, 20, 24, 28, 32, 40)),
+    (2e-3, (20, 28, 40, 50)),
+    (1e-3, (24, 40, 60)),
+)
+LADDER = (16, 20, 24, 28, 32, 40, 50, 60)
+CARRIERS = 1500  # source vertices that carry a map from one round to the next
+PER_FUNCTION = 15  # samples that each eigenfunction is fitted to, at the least
+FITTED = 500  # the first of them, to which functional maps are fitted
+GOALS = 2500  # target vertices that they may be sent to
+
+
+@dataclass(frozen=True, eq=False)
+class Refiner:
+    """Refines maps between two surfaces; a map is an index array (n,) of target vertices."""
+
+    source: Surface
+    target: Surface
+
+    @cached_property
+    def factors(self) -> ConformalClass:
+        """The metrics of the target among which the right one is sought."""
+        return ConformalClass(self.target, tuple(time for time, _ in ROUNDS))
+
+    @cached_property
+    def _carriers(self) -> tuple[Integers, Floats]:
+        """Farthest points of the source, and the area nearest to each."""
+        cells, used = self.source.regular.cells(CARRIERS), self.source.regular.usable
+        share = np.bincount(cells.nearest[used], self.source.areas[used], len(cells.samples))
+        return cells.samples, share.astype(np.float64)
+
+    @cached_property
+    def _goals(self) -> Integers:
+        """Farthest points of the target."""
+        return self.target.regular.samples(GOALS)
+
+    def aligned(self, images: Integers, rounds: Sequence[int]) -> tuple[Integers, View]:
+        """A map refined in the metric of the target in which it keeps area, and the target in that metric.
+
+        Each of the `rounds`, indices into `ROUNDS`, finds that metric for the map so far, and refines the map by
+        spectral upsampling from few eigenfunctions to many.
+        """
+        (carriers, share), ours, view = self._carriers, self.source.regular, self.target.regular
+        sent, matrix = images[carriers], np.eye(1)
+        for number in rounds:
+            time, sizes = ROUNDS[number]
+            amounts = np.bincount(sent, share, minlength=len(view.functions)).astype(np.float64)
+            view = self.factors.view(self.factors.density(amounts, time), sizes[-1])
+            steps = _available(sizes, ours, view)
+            fitted, rows = slice(FITTED), ours.functions[carriers]
+            matrix, _ = spectral_upsampling(rows[fitted], view.functions, sent[fitted], steps, self._goals)
+            sent = _images(rows, view, matrix, self._goals)
+        return _images(ours.functions, view, matrix, view.usable), view
+
+
+def upsampled(source: View, target: View, images: Integers, sizes: Sequence[int] = LADDER) -> Integers:
+    """A map (n,) to target vertices refined by spectral upsampling between two given views.
+
+    `sizes`: the numbers of eigenfunctions; `PER_FUNCTION` samples for each of the last.
+    """
+    steps = _available(sizes, source, target)
+    samples = source.samples(max(FITTED, PER_FUNCTION * steps[-1]))
+    matrix, _ = spectral_upsampling(source.functions[samples], target.functions, images[samples], steps, target.usable)
+    return _images(source.functions, target, matrix, target.usable)
+
+
+def _images(rows: Floats, target: View, matrix: Floats, goals: Integers) -> Integers:
+    """For each row (p, k) of source functions the vertex among `goals` that a functional map sends it to."""
+    k = len(matrix)
+    return goals[nearest_rows(rows[:, :k], target.functions[goals, :k] @ matrix.T)]
+
+
+def _available(sizes: Sequence[int], source: View, target: View) -> list[int]:
+    """The sizes, cut off at the number of eigenfunctions there are."""
+    most = min(source.functions.shape[1], target.functions.shape[1])
+    return sorted({min(k, most) for k in sizes})

@@ -1,0 +1,119 @@
+"""A surface measured once for matching: brought to unit area, then seen in one or more metrics."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from geodesics import Mesh, Metric, Spectrum, SurfacePoints, eigenpairs, embedded, scale_invariant
+from geodesics.arrays import Floats, Integers
+from geodesics.caching import cached_property
+from geodesics.curvature import mean_curvature
+from geodesics.intrinsic import areas, squared_lengths
+from geodesics.topology.components import vertex_components
+from geodesics.topology.orientation import orient_faces
+from gmds.errors import TooFewVertices
+from gmds.surface.view import View
+
+FEWEST_VERTICES = 12  # below this there are not enough eigenfunctions to start from
+EIGENFUNCTIONS = 100
+ROUGH_FUNCTIONS = 60  # in the metrics that only rough maps are made in
+ENOUGH_EIGENFUNCTIONS = 30
+SMOOTHING = 2e-2  # of the curvature: the starts want its large features, not its details
+DETAIL = 1e-3  # smoothing of the mean curvature that tells the chest from the back
+FLAT = 1e-6  # mean curvature of a surface of unit area below which it is rounding
+EXPONENTS = (1.0, 0.5)  # of |K|, beside 0: what suits parts that grew much, a little, and not at all
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """The largest part of a mesh, with all vertices kept, brought to unit area and oriented.
+
+    `mesh` has the vertices of `original`, moved and scaled, and the faces `face_index` of it, the largest first.
+    """
+
+    original: Mesh
+    mesh: Mesh
+    face_index: Integers
+
+    def view(self, metric: Callable[[Mesh], Metric]) -> View:
+        """The surface in a metric in which rough maps are made."""
+        return View.of(eigenpairs(metric(self.mesh), min(ROUGH_FUNCTIONS, self._most)))
+
+    @cached_property
+    def views(self) -> tuple[View, ...]:
+        """The surface in members of the family |K|^a g, from the scale-invariant metric (2.1) to that of space."""
+        curved = [functools.partial(scale_invariant, exponent=a, smoothing=SMOOTHING) for a in EXPONENTS]
+        return (*(self.view(metric) for metric in curved), self.regular)
+
+    @cached_property
+    def regular(self) -> View:
+        """The surface in the metric of space."""
+        return View.of(eigenpairs(embedded(self.mesh), self.count))
+
+    @cached_property
+    def count(self) -> int:
+        """Number of eigenfunctions in the metric of space."""
+        return min(EIGENFUNCTIONS, self._most)
+
+    @cached_property
+    def _most(self) -> int:
+        """Number of eigenfunctions there are."""
+        return len(np.unique(self.mesh.faces)) - 1
+
+    @cached_property
+    def areas(self) -> Floats:
+        """Area (n,) around each vertex."""
+        return self.regular.spectrum.mass
+
+    @cached_property
+    def reflection(self) -> Surface:
+        """The mirror image of the surface."""
+        return measure(self.original, reflected=True)
+
+    @cached_property
+    def squashed_curvature(self) -> Floats:
+        """Mean curvature (n,), squashed to [-1, 1] so that finger tips do not outvote the rest."""
+        curvature = mean_curvature(self.mesh, DETAIL)
+        typical = np.median(np.abs(curvature[self.regular.usable]))
+        return np.tanh(curvature / typical) if typical > FLAT else np.zeros_like(curvature)
+
+
+def measure(mesh: Mesh, *, reflected: bool = False) -> Surface:
+    """The largest part of `mesh`, or of its mirror image, ready for matching. Raises `TooFewVertices` (E113)."""
+    label = vertex_components(mesh)
+    of_face = label[mesh.faces[:, 0]]
+    area = areas(squared_lengths(mesh.vertices, mesh.faces))
+    size = np.bincount(of_face, area)
+    kept = np.flatnonzero(of_face == size.argmax())
+    kept = kept[np.argsort(-area[kept], kind="stable")]  # the order of the faces in the file is to have no say
+    used = np.flatnonzero(label == size.argmax())
+    if len(used) < FEWEST_VERTICES:
+        raise TooFewVertices(
+            f"the largest part of {mesh!r} has {len(used)} vertices; matching needs {FEWEST_VERTICES}; refine the mesh"
+        )
+    shift = mesh.vertices[used].mean(axis=0)
+    place, faces = (mesh.vertices - shift) / np.sqrt(size.max()), mesh.faces[kept]
+    if reflected:
+        place, faces = place * (-1.0, 1.0, 1.0), faces[:, [0, 2, 1]]  # what faced outward still does
+    return Surface(mesh, orient_faces(Mesh(place, faces)), kept)
+
+
+def view_of(distance: object, surface: Surface) -> View:
+    """The surface in the metric that a distance measures in; in the metric of space when it does not say."""
+    spectrum = getattr(distance, "spectrum", None)
+    if isinstance(spectrum, Spectrum) and len(spectrum.eigenvalues) >= min(ENOUGH_EIGENFUNCTIONS, surface.count):
+        return View.of(spectrum)
+    metric = getattr(distance, "metric", None)
+    return surface.view(lambda mesh: metric) if isinstance(metric, Metric) else surface.regular
+
+
+def on_original(surface: Surface, points: SurfacePoints) -> SurfacePoints:
+    """Points of a measured surface as points of the mesh that was measured."""
+    face, weight = surface.face_index[points.face], points.barycentric
+    corners, turned = surface.original.faces[face], surface.mesh.faces[points.face]
+    swapped = (corners != turned).any(axis=1, keepdims=True)  # a turned face keeps its first corner
+    return SurfacePoints(surface.original, face, np.where(swapped, weight[:, [0, 2, 1]], weight))

@@ -1,0 +1,147 @@
+"""Many rough maps, and the few worth more work."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import replace
+
+import generated_shapes as shapes
+import numpy as np
+import pytest
+from matched_shapes import animal, bumpy, permuted, surface
+from numpy.typing import NDArray
+
+from geodesics import SurfacePoints
+from gmds import initialization
+from gmds.matching.pair import SurfacePair
+from gmds.matching.proposals import APART, PROPOSED, Proposal, Start, distinct, proposals, rough_maps
+from gmds.registration.deformable import Geometry
+from gmds.registration.register import registered
+from gmds.spectral.sample_maps import SampledPair
+from gmds.surface.measured import measure
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+ALL: list[Start] = list(initialization.ALL)
+
+
+@functools.cache
+def turned(name: str) -> tuple[SurfacePair, Index]:
+    """A surface and a copy turned and renumbered, and where its vertices belong."""
+    mesh = {"bumpy": bumpy, "animal": animal, "outlined": lambda: shapes.bumpy_sphere(4)}[name]()
+    target, place = permuted(shapes.moved(mesh, 3.0), 1)
+    return SurfacePair(measure(mesh), measure(target)), place
+
+
+def found(pair: SurfacePair, starts: list[Start] = ALL) -> list[Proposal]:
+    """All proposals in the metric of space, best first."""
+    return sorted(proposals(pair, [(pair.source.regular, pair.target.regular)], starts), key=lambda p: p.loss)
+
+
+@functools.cache
+def of_copy(name: str) -> list[Proposal]:
+    return found(turned(name)[0])
+
+
+def off(pair: SurfacePair, proposal: Proposal, place: Index) -> float:
+    """Mean distance in root areas from the truth, on the outline."""
+    truth = pair.target.mesh.vertices[place[pair.outlines[0].origin]]
+    return float(np.linalg.norm(proposal.registered.y - truth, axis=1).mean())
+
+
+def samples_of(pair: SampledPair, images: Index) -> Index:
+    """The sample map of a map to vertices."""
+    places = pair.target.mesh.vertices
+    gaps = places[images[pair.source_samples], None] - places[pair.target_samples]
+    return np.asarray(np.linalg.norm(gaps, axis=2).argmin(axis=1))
+
+
+@pytest.mark.parametrize(("name", "least"), [("bumpy", 2e-3), ("animal", 0.02), ("outlined", 0.03)])
+def test_the_best_map_to_a_turned_copy_is_the_right_one_by_far(name: str, least: float) -> None:
+    pair, place = turned(name)
+    first, second, *_ = distinct(of_copy(name), pair.outlines[0], 2)
+    assert off(pair, first, place) < least
+    assert off(pair, second, place) > 0.04
+    assert first.loss < second.loss - 1
+
+
+def test_proposals_are_maps_of_the_outlines() -> None:
+    pair, _ = turned("outlined")
+    ours, theirs = pair.outlines
+    assert ours.mesh.n_faces < pair.source.mesh.n_faces
+    for proposal in of_copy("outlined"):
+        assert proposal.registered.y.shape == ours.mesh.vertices.shape
+        assert proposal.registered.points.mesh is theirs.mesh
+        assert proposal.loss == proposal.registered.residuals.loss + proposal.back.residuals.loss
+
+
+@pytest.mark.parametrize("name", ["bumpy", "outlined"])
+def test_rough_maps_lead_from_outline_to_outline_and_every_second_is_reflected(name: str) -> None:
+    pair, place = turned(name)
+    ours, theirs = pair.outlines
+    maps = rough_maps(pair, [(pair.source.regular, pair.target.regular)], ALL)
+    doubled = 1 if all(flip is None for flip in pair.reflections) else 2
+    assert 1 <= len(maps) <= doubled * PROPOSED and len(maps) % doubled == 0
+    for images in maps:
+        assert images.shape == (ours.mesh.n_vertices,)
+        assert images.min() >= 0 and images.max() < theirs.mesh.n_vertices
+    truth = pair.target.mesh.vertices[place[ours.origin]]
+    gaps = [np.linalg.norm(theirs.mesh.vertices[images] - truth, axis=1).mean() for images in maps]
+    assert min(gaps) < 0.03
+
+
+def test_a_start_is_tried_as_it_is_and_reflected_and_the_right_one_wins() -> None:
+    mine = surface(animal())
+    pair, same = SurfacePair(mine, mine), np.arange(mine.mesh.n_vertices)
+    assert pair.reflections[0] is not None
+    gaps = [off(pair, p, same) for p in found(pair, [lambda sampled: [samples_of(sampled, same)]])]
+    assert len(gaps) == 2
+    assert gaps[0] < 0.01 < 0.1 < gaps[1]
+
+
+def test_a_reflection_of_the_target_serves_as_well() -> None:
+    source, target = surface(bumpy()), measure(shapes.ellipsoid(2, (1.0, 1.4, 2.0)))
+    flip = SurfacePair(target, target).reflections[0]
+    assert flip is not None
+    pair = SurfacePair(source, target)
+    pair.__dict__["reflections"] = None, flip  # as if the source had none
+    same = np.arange(162)
+    maps = rough_maps(pair, [(source.regular, target.regular)], [lambda sampled: [samples_of(sampled, same)]])
+    assert len(maps) == 2
+    gap = target.mesh.vertices[maps[1]] - target.mesh.vertices[flip[maps[0]]]
+    assert np.linalg.norm(gap, axis=1).mean() < 1e-9
+
+
+def test_more_metrics_make_more_maps() -> None:
+    pair, _ = turned("bumpy")
+    views = list(zip(pair.source.views, pair.target.views, strict=True))
+    assert len(rough_maps(pair, views, ALL)) > len(rough_maps(pair, views[:1], ALL))
+
+
+@pytest.fixture(scope="module")
+def synthetic() -> tuple[Geometry, list[Proposal]]:
+    """Shifted copies of one map, the farther the worse: 0, 0.5, ... 4 times what keeps two maps apart."""
+    geometry = Geometry.of(surface(bumpy()))
+    base = registered(geometry, geometry, geometry.mesh.vertices, growing=False)
+    made = []
+    for k in range(9):
+        y = base.y + np.array([0.5 * k * APART * 1.001, 0, 0])
+        points = SurfacePoints.closest(geometry.mesh, y)
+        worse = replace(base, y=y, points=points, residuals=replace(base.residuals, misfit_back=0.01 + k))
+        made.append(Proposal(worse, base))
+    return geometry, made
+
+
+def test_distinct_keeps_the_best_of_those_that_are_alike(synthetic: tuple[Geometry, list[Proposal]]) -> None:
+    geometry, made = synthetic
+    shuffled = [made[i] for i in np.random.default_rng(0).permutation(len(made))]
+    for count in (1, 3, 20):
+        assert distinct(shuffled, geometry, count) == made[::2][:count]
+    assert distinct([], geometry, 3) == []
+    assert distinct([made[1], made[0]], geometry, 3) == [made[0]]
+
+
+def test_proposals_do_not_depend_on_size_and_place() -> None:
+    mesh = bumpy()
+    one, other = (found(SurfacePair(surface(mesh), measure(shapes.moved(mesh, s, seed=2))))[:3] for s in (1e-6, 1e6))
+    assert [p.loss for p in one[1:]] == pytest.approx([p.loss for p in other[1:]], abs=1e-6)

@@ -1,0 +1,240 @@
+"""Pictures without a screen: corresponding points look alike, what is near hides what is behind."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from generated_shapes import ellipsoid, icosphere, moved, rectangle, tetrahedron
+
+import gmds.pictures.offscreen
+from geodesics import Mesh, SurfacePoints
+from gmds import Correspondence
+from gmds.cli.fields import PICTURES
+from gmds.errors import PictureFormat, RenderingError
+from gmds.pictures.camera import alignment, broadside
+from gmds.pictures.colours import css, label_colours, position_colours, value_colours
+from gmds.pictures.offscreen import offscreen
+from gmds.pictures.panels import FORMATS, map_panels, write_picture, write_values
+from gmds.pictures.software import Shot, render, software, view_rotation
+from gmds.shapes import quadruped, truth
+
+
+@pytest.fixture(scope="module")
+def answer() -> Correspondence:
+    source, target = quadruped(n_vertices=500), quadruped("walk", head_scale=2, n_vertices=600, seed=1)
+    valid, distortion = np.arange(500) % 50 > 0, np.linspace(0, 0.3, 500)
+    return Correspondence.from_points(source, truth(source, target), valid=valid, distortion=distortion)
+
+
+def test_writing_into_a_missing_folder_raises(answer: Correspondence, tmp_path: Path) -> None:
+    with pytest.raises(OSError, match="nowhere"):
+        write_picture(tmp_path / "nowhere" / "x.png", answer, pixels=60, renderer=software)
+
+
+def test_maps_without_any_counterpart_and_errors_without_numbers_can_be_shown(tmp_path: Path) -> None:
+    shape = tetrahedron()
+    answer = Correspondence.from_points(
+        shape, SurfacePoints.at_vertices(shape, [0, 1, 2, 3]), valid=np.zeros(4, dtype=bool)
+    )
+    write_picture(tmp_path / "out.png", answer, errors=np.full(4, np.nan), renderer=software)
+    with pytest.raises(ValueError, match="each of the 4 vertices"):
+        write_picture(tmp_path / "out.png", answer, errors=np.zeros(3))
+    with pytest.raises(ValueError, match="each of the 4 vertices"):
+        write_values(tmp_path / "out.png", [("short", shape, [1.0])])
+
+
+def test_the_ending_names_the_format(answer: Correspondence, tmp_path: Path) -> None:
+    begins = {".png": b"\x89PNG", ".jpg": b"\xff\xd8\xff", ".jpeg": b"\xff\xd8\xff", ".svg": b"<?xml", ".pdf": b"%PDF"}
+    assert set(begins) == set(FORMATS) == set(PICTURES)
+    for ending, first in begins.items():
+        twice = [tmp_path / f"{name}{ending}" for name in "ab"]
+        for path in twice:
+            write_picture(path, answer, pixels=60, renderer=software, names=("<a>", "&b"))
+        assert twice[0].read_bytes() == twice[1].read_bytes() and twice[0].read_bytes().startswith(first)
+    assert "&lt;a&gt;" in (tmp_path / "a.svg").read_text()
+    for name in ("map.tif", "map"):
+        with pytest.raises(PictureFormat, match=r"E218.*map.*\.png, \.jpg"):
+            write_picture(tmp_path / name, answer)
+    assert not list(tmp_path.glob("map*"))
+
+
+def test_both_renderers_draw_the_same(answer: Correspondence) -> None:
+    colours = position_colours(answer.target.vertices)
+    labels = label_colours(np.arange(answer.target.n_vertices) // 50)
+    view = broadside(answer.target)
+    shots = [Shot(answer.target, colours, view, 160), Shot(answer.target, labels, view, 160, sharp=True)]
+    try:
+        theirs = offscreen(shots)
+    except RenderingError as error:
+        pytest.skip(str(error))
+    for own, other in zip(software(shots), theirs, strict=True):
+        assert own.shape == other.shape and other.max() <= 1
+        drawn = [(image.min(axis=2) < 0.99) for image in (own, other)]
+        assert (drawn[0] != drawn[1]).mean() < 0.02, "the same outline"
+        both = drawn[0] & drawn[1]
+        hues = [image[both] / np.linalg.norm(image[both], axis=1, keepdims=True) for image in (own, other)]
+        assert np.quantile((hues[0] * hues[1]).sum(axis=1), 0.1) > 0.98, "the same colours, but for the light"
+
+
+WORKERS = {
+    "import os; os.abort()": "signal 6",
+    "import sys; sys.stderr.write('bad X server connection'); sys.exit(3)": "exit code 3: bad X server connection",
+    "import time; time.sleep(60)": "did not draw within 1 s",
+    "pass": "drew nothing",
+}
+
+
+@pytest.mark.parametrize("code", WORKERS)
+def test_a_driver_that_fails_is_told_and_the_picture_drawn_all_the_same(
+    answer: Correspondence, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, code: str
+) -> None:
+    (tmp_path / "worker.py").write_text(code)
+    monkeypatch.setattr(gmds.pictures.offscreen, "WORKER", tmp_path / "worker.py")
+    monkeypatch.setattr(gmds.pictures.offscreen, "PATIENCE", 1 if "sleep" in code else 60)
+    monkeypatch.setattr(gmds.pictures.offscreen, "_installed", lambda: True)
+    why = answer.picture(tmp_path / "map.png", pixels=60)
+    assert WORKERS[code] in why and "E510" in why and (tmp_path / "map.png").exists()
+    with pytest.raises(RenderingError, match=WORKERS[code]):
+        answer.picture(tmp_path / "other.png", pixels=60, renderer=offscreen)
+    assert not (tmp_path / "other.png").exists()
+
+
+def test_without_pyvista_the_picture_is_drawn_and_the_extra_named(
+    answer: Correspondence, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(gmds.pictures.offscreen, "_installed", lambda: False)
+    assert "pip install 'gmds[viz]'" in answer.picture(tmp_path / "map.png", pixels=60)
+    assert (tmp_path / "map.png").exists()
+
+
+def test_a_truth_that_is_known_at_few_points_colours_what_is_nearest(answer: Correspondence, tmp_path: Path) -> None:
+    errors = np.full(500, np.nan)
+    errors[[3, 400]] = 0.1, 0.2
+    panel = map_panels(answer, errors)[2]
+    assert panel.caption == "error"
+    assert len(np.unique(panel.shot.colours[answer.valid], axis=0)) == 2
+
+
+def pixels_of(path: Path) -> np.ndarray:
+    from matplotlib.image import imread
+
+    assert path.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+    return imread(path)[:, :, :3]
+
+
+def test_the_picture_shows_source_target_and_errors(answer: Correspondence, tmp_path: Path) -> None:
+    plain = Correspondence.from_points(answer.source, answer.points)
+    write_picture(tmp_path / "two.png", plain, pixels=150, renderer=software)
+    write_picture(
+        tmp_path / "three.png", answer, errors=np.linspace(0, 1, 500), title="$x <b>", pixels=150, renderer=software
+    )
+    two, three = pixels_of(tmp_path / "two.png"), pixels_of(tmp_path / "three.png")
+    assert three.shape[1] > 1.3 * two.shape[1]
+    assert 0.1 < (two.min(axis=2) < 0.98).mean() < 0.9
+
+
+def test_values_and_labels_make_pictures(tmp_path: Path) -> None:
+    sphere = icosphere(2)
+    z = np.where(np.arange(sphere.n_vertices) == 0, np.inf, sphere.vertices[:, 2])
+    write_values(
+        tmp_path / "values.png",
+        [("height", sphere, z), ("flat", rectangle(3, 3), np.zeros(16))],
+        pixels=120,
+        renderer=software,
+    )
+    write_values(
+        tmp_path / "labels.png", [("sign", sphere, np.sign(z).astype(int))], labels=True, pixels=120, renderer=software
+    )
+    assert pixels_of(tmp_path / "values.png").size and pixels_of(tmp_path / "labels.png").size
+
+
+def test_pictures_repeat_byte_for_byte(answer: Correspondence, tmp_path: Path) -> None:
+    for name in ("a.png", "b.png"):
+        write_picture(tmp_path / name, answer, pixels=100)
+    assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
+
+
+def test_a_sphere_seen_from_anywhere_is_a_disc_of_the_right_size() -> None:
+    sphere = icosphere(4)
+    for azimuth, elevation in ((0, 0), (50, 30)):
+        black = render(sphere, np.zeros((sphere.n_vertices, 3)), rotation=view_rotation(azimuth, elevation), pixels=200)
+        assert (1 - black).mean(axis=2).sum() == pytest.approx(np.pi * (0.47 * 200) ** 2, rel=0.02)
+
+
+def test_what_is_nearer_hides_what_is_behind() -> None:
+    near, far = [[1, -1, -1], [1, 1, -1], [1, 0, 1]], [[0, -1, -1], [0, 1, -1], [0, 0, 1]]
+    colours = np.repeat([[1.0, 0, 0], [0, 0, 1.0]], 3, axis=0)
+    for vertices, own in ((near + far, colours), (far + near, colours[::-1])):
+        mesh = Mesh(vertices, [[0, 1, 2], [3, 4, 5]])
+        image = render(mesh, own, rotation=view_rotation(0, 0), pixels=60)
+        red, _, blue = image[30, image.shape[1] // 2]
+        assert red > 0.5 and blue < 0.1
+
+
+def test_covered_pixels_are_those_whose_centre_is_in_a_triangle() -> None:
+    """A naive twin: each pixel's centre is tested against each triangle in turn."""
+    mesh, rotation = tetrahedron(), view_rotation(20, 35)
+    colours = np.eye(4)[:, :3]
+    image = render(mesh, colours, rotation=rotation, pixels=40, oversampling=1)
+    camera = mesh.vertices @ rotation.T
+    span = np.ptp(camera[:, :2], axis=0)
+    scale = 0.94 * 40 / span.max()
+    height, width = image.shape[:2]
+    centre = (camera[:, :2].min(0) + camera[:, :2].max(0)) / 2
+    xy = (camera[:, :2] - centre) * scale * [1, -1] + [width / 2, height / 2]
+    covered = np.zeros((height, width), dtype=bool)
+    for row, column in np.ndindex(height, width):
+        for face in mesh.faces:
+            system = np.vstack([xy[face].T, np.ones(3)])
+            weights = np.linalg.solve(system, [column + 0.5, row + 0.5, 1])
+            covered[row, column] |= bool((weights >= -1e-9).all())
+    assert np.array_equal(covered, image.min(axis=2) < 1)
+
+
+def test_the_target_is_turned_to_be_seen_from_the_same_side() -> None:
+    shape = ellipsoid(2)
+    turned = moved(shape, scale=7.0, seed=5)
+    answer = Correspondence.from_points(shape, SurfacePoints.at_vertices(turned, np.arange(turned.n_vertices)))
+    back = (turned.vertices - turned.vertices.mean(0)) @ alignment(answer).T / 7
+    assert np.allclose(back, shape.vertices - shape.vertices.mean(0), atol=1e-9)
+
+
+def test_cameras_are_rotations_even_for_odd_shapes() -> None:
+    needle = Mesh([[0, 0, 0], [1e-6, 0, 1], [0, 0, 2.5]], [[0, 1, 2]])
+    for mesh in (icosphere(1), rectangle(2, 2), needle):
+        for up in ((0, 0, 1), (0, 1, 0), (1, 2, 3)):
+            r = broadside(mesh, up)
+            assert np.allclose(r @ r.T, np.eye(3), atol=1e-9) and np.linalg.det(r) == pytest.approx(1)
+            assert (r @ up)[1] > 0  # up is up
+
+
+def test_colours_stay_in_range_and_missing_values_are_grey() -> None:
+    for colours in (
+        position_colours(icosphere(2).vertices),
+        position_colours(np.zeros((4, 3))),
+        value_colours([0, 1, np.nan, np.inf, -5], 0, 1),
+        value_colours([2.0, 2.0], 2, 2),
+        label_colours(np.arange(-1, 40)),
+    ):
+        assert np.isfinite(colours).all() and colours.min() >= 0 and colours.max() <= 1
+    assert len(np.unique(label_colours(np.arange(40)).round(3), axis=0)) == 40
+    grey = value_colours([np.nan], 0, 1)[0]
+    assert np.ptp(grey) == 0
+    assert css([[1, 0.5, 0], [2, -1, 0]]) == ["#ff8000", "#ff0000"]
+
+
+def test_value_colours_grow_lighter_so_that_grey_prints_read() -> None:
+    light = value_colours(np.linspace(0, 1, 50), 0, 1) @ [0.2126, 0.7152, 0.0722]
+    assert (np.diff(light) > 0).all()
+
+
+def test_left_and_right_differ_for_eyes_without_red_or_green() -> None:
+    """Positions mirrored across the shape must differ once red and green are seen as one."""
+    animal = quadruped(n_vertices=500)
+    colours = position_colours(animal.vertices)
+    seen = np.stack([0.6 * colours[:, 0] + 0.4 * colours[:, 1], colours[:, 2]], axis=1)
+    limbs = [np.flatnonzero((animal.vertices[:, 2] < 0.5) & (s * animal.vertices[:, 1] > 0)) for s in (1, -1)]
+    left, right = (seen[limb].mean(axis=0) for limb in limbs)
+    assert np.linalg.norm(left - right) > 0.1

@@ -1,0 +1,59 @@
+"""Surfaces that can not be collapsed as they are: an outline must still come, in little memory."""
+
+from __future__ import annotations
+
+import resource
+import subprocess
+import sys
+
+import pytest
+from places import ROOT
+
+TESTS = ROOT / "tests"
+MEMORY = 8 << 30  # bytes of address space; a collapse that goes astray takes all there is
+CODE = """
+import numpy as np, generated_shapes as shapes
+from geodesics import Mesh
+from gmds.registration.deformable import Geometry
+from gmds.surface import measure
+from test_matching_robust import moebius
+ball = shapes.bumpy_sphere(3)
+n = ball.n_vertices
+vertices = np.concatenate([ball.vertices, ball.vertices[:3]])
+mesh = {made}
+whole = measure(mesh)
+outline = Geometry.outline(whole, 300)
+assert outline.mesh.n_faces <= 300 or outline.mesh is whole.mesh
+assert np.isfinite(outline.mesh.vertices).all()
+assert abs(outline.areas.sum() - 1) < 1e-9
+assert np.isin(outline.origin[outline.usable], np.unique(whole.mesh.faces)).all()
+"""
+MESHES = {
+    "a face with a corner twice": "Mesh(vertices, [*ball.faces, [4, 4, 9]])",
+    "a face with a corner thrice": "Mesh(vertices, [*ball.faces, [7, 7, 7]])",
+    "a face with a corner twice, off the rest": "Mesh(vertices, [*ball.faces, [4, 4, 300], [5, 6, 6]])",
+    "two vertices in one place": "Mesh(vertices, [*ball.faces, [0, n, 1]])",
+    "faces twice": "Mesh(vertices, [*ball.faces, *ball.faces[:5]])",
+    "faces turned over": "Mesh(vertices, [*ball.faces[7:], *ball.faces[:7, ::-1]])",
+    "faces of no area": "Mesh(np.where(np.isin(np.arange(n), ball.faces[5])[:, None], 1.0, ball.vertices), ball.faces)",
+    "one side": "moebius(400)",
+}
+
+
+@pytest.mark.parametrize("name", MESHES)
+def test_the_outline_of_a_damaged_surface_is_found(name: str) -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", CODE.replace("{made}", MESHES[name])],
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=ROOT,
+        env={
+            "PYTHONPATH": f"{ROOT}:{TESTS}/support:{TESTS}/gmds/matching",
+            "OMP_NUM_THREADS": "1",
+            "OPENBLAS_NUM_THREADS": "1",
+        },
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY)),
+        timeout=60,
+    )
+    assert done.returncode == 0, done.stderr[-500:]

@@ -1,0 +1,277 @@
+"""The page in a real browser: nothing is fetched, nothing goes wrong, and what lights up is the true partner."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from generated_shapes import subdivided
+from pages import HOSTILE, Visit, browser, page_data
+
+from geodesics import SurfacePoints
+from gmds import Correspondence
+from gmds.maps.point_map import Candidate
+from gmds.report.page import write_report
+from gmds.shapes import quadruped, truth
+
+
+@pytest.fixture(scope="module")
+def answer() -> Correspondence:
+    source, target = quadruped(n_vertices=1500), quadruped("walk", head_scale=2, n_vertices=1400, seed=1)
+    mirrored = Candidate(truth(source, target, mirrored=True), 0.2, -0.8)
+    valid = np.arange(1500) % 10 > 0
+    spread = np.linspace(0, 0.3, 1500)
+    points = truth(source, target)
+    return Correspondence.from_points(source, points, valid=valid, distortion=spread, candidates=(mirrored,))
+
+
+@pytest.fixture(scope="module")
+def running() -> Iterator[Any]:
+    with browser() as found:
+        yield found
+
+
+@pytest.fixture(scope="module")
+def file(answer: Correspondence, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("page") / "report.html"
+    write_report(path, answer, errors=np.linspace(0, 0.2, 1500), title=HOSTILE, names=(HOSTILE, HOSTILE))
+    return path
+
+
+@pytest.fixture(scope="module")
+def visit(running: Any, file: Path) -> Visit:
+    return Visit(running, file)
+
+
+@pytest.fixture
+def page(visit: Visit) -> Any:
+    """The page as it is when opened."""
+    visit.page.keyboard.press("Escape")
+    visit.page.select_option("#map", index=0)
+    visit.page.check("input[value=match]", force=True)
+    visit.page.click("#reset")
+    return visit.page
+
+
+def camera_of(page: Any, side: int) -> dict[str, Any]:
+    """What plotly says of the camera of a panel, and how large the panel is."""
+    return page.evaluate(
+        "(side) => { const plot = document.querySelectorAll('.plot')[side]; const box = plot.getBoundingClientRect();"
+        "return {...plot.layout.scene.camera, box: [box.left, box.top, box.width, box.height]}; }",
+        side,
+    )
+
+
+def on_screen(page: Any, side: int, positions: np.ndarray) -> np.ndarray:
+    """Where drawn positions (p, 3) are on the screen, and how far away: a camera with 45 degrees from top to bottom."""
+    camera = camera_of(page, side)
+    eye, up = (np.array([camera[name][axis] for axis in "xyz"]) for name in ("eye", "up"))
+    back = eye / np.linalg.norm(eye)
+    right = np.cross(up, back)
+    right /= np.linalg.norm(right)
+    left, top, width, height = camera["box"]
+    d = positions - eye
+    depth = -d @ back
+    focal = height / 2 / np.tan(np.pi / 8)
+    return np.stack(
+        [
+            left + width / 2 + focal * (d @ right) / depth,
+            top + height / 2 - focal * (d @ np.cross(back, right)) / depth,
+            depth,
+        ],
+        axis=1,
+    )
+
+
+def front_face(seen: np.ndarray, faces: np.ndarray, pointer: np.ndarray) -> int:
+    """The face in front at a place of the screen: each is asked whether it covers the place, and how far away it is."""
+    corners = seen[faces]
+    systems = np.stack([corners[..., 0], corners[..., 1], np.ones(corners.shape[:2])], axis=1)
+    proper = np.flatnonzero(np.linalg.det(systems) != 0)
+    weights = np.linalg.solve(systems[proper], np.tile([*pointer, 1.0], (len(proper), 1))[..., None])[..., 0]
+    depth = 1 / (weights / corners[proper, :, 2]).sum(axis=1)
+    return int(proper[np.where(weights.min(axis=1) >= 0, depth, np.inf).argmin()])
+
+
+def read_out(page: Any) -> dict[str, str]:
+    page.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    return page.evaluate("() => ({...document.getElementById('readout').dataset})")
+
+
+def mark_of(page: Any, side: int) -> np.ndarray:
+    box = page.locator(f"#mark-{side}").bounding_box()
+    return np.array([box["x"] + box["width"] / 2, box["y"] + box["height"] / 2])
+
+
+def test_it_loads_without_a_network_or_a_word_on_the_console(visit: Visit, file: Path) -> None:
+    assert visit.page.evaluate("document.body.dataset.ready") == "yes"
+    assert visit.asked == [file.as_uri()]
+    assert visit.said == []
+    assert file.stat().st_size < 6e6
+
+
+def test_names_are_shown_as_they_are_and_run_nothing(visit: Visit) -> None:
+    assert visit.page.title() == " ".join(HOSTILE.split())
+    assert visit.page.locator("h1").inner_text() == HOSTILE
+    assert visit.page.locator("#panel-0 bdi").inner_text() == HOSTILE
+    assert visit.page.locator("img[src=x]").count() == 0
+
+
+@pytest.mark.parametrize("side", [0, 1])
+def test_pointing_lights_up_the_true_partner(answer: Correspondence, page: Any, file: Path, side: int) -> None:
+    data = page_data(file)
+    vertices = data["surfaces"][side]["vertices"].reshape(-1, 3)
+    others = data["surfaces"][1 - side]["vertices"].reshape(-1, 3)
+    images = (answer if side == 0 else answer.inverse()).points
+    found = (answer if side == 0 else answer.inverse()).valid
+    seen, faces = on_screen(page, side, vertices), data["surfaces"][side]["faces"].reshape(-1, 3)
+    left, top, width, height = camera_of(page, side)["box"]
+    hits = 0
+    for x, y in np.stack(np.meshgrid(np.linspace(0.2, 0.8, 7), np.linspace(0.3, 0.7, 4)), axis=-1).reshape(-1, 2):
+        pointer = np.array([left + x * width, top + y * height])
+        page.mouse.move(*pointer)
+        told = read_out(page)
+        if "vertex" not in told:
+            continue
+        vertex = int(told["vertex"])
+        hits += 1
+        assert vertex in faces[front_face(seen, faces, pointer)]
+        assert np.allclose(mark_of(page, side), seen[vertex, :2], atol=1)
+        if not found[vertex]:
+            assert told["face"] == ""
+            continue
+        assert int(told["face"]) == images.face[vertex]
+        weights = np.array(told["weights"].split(), dtype=float)
+        assert np.allclose(weights, images.barycentric[vertex], atol=1e-4)
+        corners = others[images.mesh.faces[images.face[vertex]]]
+        place = on_screen(page, 1 - side, (weights @ corners)[None])[0, :2]
+        assert np.allclose(mark_of(page, 1 - side), place, atol=1)
+    assert hits >= 5
+
+
+def test_what_is_drawn_is_where_the_page_believes_it_is(answer: Correspondence, page: Any, file: Path) -> None:
+    """The colour on the screen at a vertex in front is that of the vertex, but for the light."""
+    from io import BytesIO
+
+    from matplotlib.image import imread
+
+    data = page_data(file)
+    vertices, colours = data["surfaces"][0]["vertices"].reshape(-1, 3), data["maps"][0]["colours"].reshape(-1, 3)
+    page.mouse.move(2, 2)
+    image = imread(BytesIO(page.screenshot()))[:, :, :3]
+    seen = on_screen(page, 0, vertices)
+    rows = [
+        i
+        for i in np.flatnonzero(answer.valid)[::9]
+        if page.evaluate("(p) => !gmdsPage.scenes[0].place(p).hidden", vertices[i].tolist())
+    ]
+    shown = image[seen[rows, 1].round().astype(int), seen[rows, 0].round().astype(int)]
+    direction = colours[rows] / np.linalg.norm(colours[rows], axis=1, keepdims=True)
+    alike = (shown * direction).sum(axis=1) / np.linalg.norm(shown, axis=1)
+    assert len(rows) > 40 and np.median(alike) > 0.999 and (alike > 0.97).mean() > 0.75  # some are at an outline
+
+
+def test_switching_map_and_colours(answer: Correspondence, page: Any, file: Path) -> None:
+    data = page_data(file)
+    painted = "() => document.querySelectorAll('.plot')[0].data[0].vertexcolor.slice()"
+
+    def expected(rgb: np.ndarray) -> list[str]:
+        return [f"rgb({r},{g},{b})" for r, g, b in rgb.reshape(-1, 3).tolist()]
+
+    assert page.evaluate(painted) == expected(data["maps"][0]["colours"])
+    page.select_option("#map", index=1)
+    page.wait_for_function(f"({painted})()[5] === '{expected(data['maps'][1]['colours'])[5]}'")
+    assert page.evaluate(painted) == expected(data["maps"][1]["colours"])
+    assert page.locator("input[value=distortion]").is_disabled()
+    other = answer.candidates[0].points
+    page.fill("#go-vertex", "77")
+    page.click("#go button")
+    assert int(read_out(page)["face"]) == other.face[77]
+    page.select_option("#map", index=0)
+    page.wait_for_function(f"({painted})()[5] === '{expected(data['maps'][0]['colours'])[5]}'")
+    assert int(read_out(page)["face"]) == answer.points.face[77], "a marked pair follows the map"
+    for mode in ("distortion", "valid", "error"):
+        before = page.evaluate(painted)
+        page.check(f"input[value={mode}]", force=True)
+        page.wait_for_function(f"(old) => JSON.stringify(({painted})()) !== old", arg=str(before))
+        assert page.locator("#legend-ramp").is_visible() == (mode != "valid")
+        assert page.locator("#histogram").is_visible() == (mode != "valid")
+    assert page.locator("#curve").is_visible()
+    ramp = data["ramp"].reshape(-1, 3)
+    top = next(mode["high"] for mode in data["modes"] if mode["key"] == "error")
+    steps = np.rint(np.clip(data["maps"][0]["values"]["error"][0] / top, 0, 1) * (len(ramp) - 1)).astype(int)
+    assert np.mean(np.array(page.evaluate(painted)) == np.array(expected(ramp[steps]))) > 0.99  # rounding aside
+
+
+def test_a_click_keeps_a_pair_and_escape_lets_it_go(page: Any) -> None:
+    left, top, width, height = camera_of(page, 0)["box"]
+    page.mouse.click(left + 0.45 * width, top + 0.5 * height)
+    kept = read_out(page)
+    assert "vertex" in kept
+    page.mouse.move(left + 0.55 * width, top + 0.5 * height)
+    assert read_out(page) == kept
+    page.keyboard.press("Escape")
+    assert read_out(page) == {}
+
+
+def test_keys_turn_both_surfaces_and_a_box_lets_go_of_the_other(page: Any) -> None:
+    first = camera_of(page, 0)
+    page.focus("#panel-0")
+    page.keyboard.press("ArrowLeft")
+    page.keyboard.press("+")
+    assert camera_of(page, 0)["eye"] == camera_of(page, 1)["eye"] != first["eye"]
+    page.uncheck("#together")
+    page.focus("#panel-0")
+    page.keyboard.press("ArrowUp")
+    assert camera_of(page, 0)["eye"] != camera_of(page, 1)["eye"]
+    page.check("#together")
+
+
+def test_dragging_turns_both_surfaces(page: Any) -> None:
+    before = camera_of(page, 1)
+    left, top, width, height = camera_of(page, 0)["box"]
+    page.mouse.move(left + width / 2, top + height / 2)
+    page.mouse.down()
+    page.mouse.move(left + width / 2 + 40, top + height / 2, steps=3)
+    page.mouse.up()
+    page.wait_for_timeout(300)
+    assert camera_of(page, 1)["eye"] == pytest.approx(camera_of(page, 0)["eye"])
+    assert camera_of(page, 1)["eye"] != before["eye"]
+
+
+def test_the_largest_value_is_found_and_turned_to(answer: Correspondence, page: Any) -> None:
+    page.check("input[value=distortion]", force=True)
+    page.click("#largest")
+    rows = np.flatnonzero(answer.valid)
+    assert int(read_out(page)["vertex"]) == rows[answer.distortion[rows].argmax()]
+
+
+def test_a_narrow_window_shows_one_surface_under_the_other(running: Any, file: Path) -> None:
+    page = Visit(running, file, width=390, height=800).page
+    first, second = (page.locator(f"#panel-{side}").bounding_box() for side in (0, 1))
+    assert second["y"] >= first["y"] + first["height"]
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+
+def test_large_surfaces_are_drawn_as_copies_and_answer_at_once(running: Any, tmp_path: Path) -> None:
+    """50,000 vertices a side: drawn as copies, and the page says so."""
+    mesh = subdivided(quadruped(n_vertices=12_500))
+    assert mesh.n_vertices > 49_900
+    identity = SurfacePoints.at_vertices(mesh, np.arange(mesh.n_vertices))
+    answer = Correspondence.from_points(mesh, identity, distortion=np.linspace(0, 1, mesh.n_vertices))
+    write_report(tmp_path / "large.html", answer)
+    assert (tmp_path / "large.html").stat().st_size < 6e6
+    page = Visit(running, tmp_path / "large.html").page
+    assert "vertices, drawn with" in page.locator("#panel-0 h2").inner_text()
+    quickest = page.evaluate("""() => {
+        const scene = gmdsPage.scenes[0];
+        return Math.min(...Array.from({length: 20}, (_, i) => {
+            const start = performance.now();
+            gmdsPage.mark({side: 0, vertex: scene.vertexAt(150 + 8 * i, 200) + 1});
+            return performance.now() - start;
+        }));
+    }""")
+    assert quickest < 100  # ms; 6 on a slow processor

@@ -1,0 +1,174 @@
+"""The scripts behind the published tables: what is done is not done again, and every pair is in one half."""
+
+from __future__ import annotations
+
+import importlib
+import os
+import subprocess
+from dataclasses import replace
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+import pytest
+from generated_shapes import bumpy_sphere
+from places import ROOT
+
+from geodesics import Mesh
+from gmds.benchmarking.datasets import Pair, dataset_pairs
+from gmds.benchmarking.run import BenchmarkRow, benchmark
+
+SCRIPTS = ROOT / "benchmarks"
+SETS = ("scaled", "faust_5k", "tosca_5k", "tosca_cross_5k", "shrec20", "shrec20_reversed")
+ROW = BenchmarkRow("a-b", "self", "GOOD", direct=20.0, best=2.0, within_010=50.0, missing_found=None)
+
+
+@pytest.fixture
+def scripts() -> Any:
+    """Imports a script by its name."""
+    return lambda name: importlib.import_module(f"benchmarks.accuracy.{name}")
+
+
+def test_rows_come_back_as_they_were_written(scripts: Any, tmp_path: Path) -> None:
+    runs, path = scripts("runs"), tmp_path / "new" / "rows.csv"
+    rows = {("match", "a-b"): ROW, ("match", "c-d"): BenchmarkRow("c-d", "", "failed: face 1, which")}
+    runs.write_rows(path, "abc", rows)
+    assert runs.read_rows(path, "abc") == rows
+    assert runs.read_rows(path, "another") == {}
+    assert runs.read_rows(tmp_path / "none.csv", "abc") == {}
+
+
+def test_published_results_can_be_read(scripts: Any) -> None:
+    """Also the ones of before there were versions."""
+    for path in (SCRIPTS / "results").glob("*.csv"):
+        assert scripts("runs").read_rows(path, "none") == {}
+
+
+def test_what_is_in_the_table_is_not_run_again(scripts: Any, tmp_path: Path) -> None:
+    runs, path = scripts("runs"), tmp_path / "rows.csv"
+    runs.write_rows(path, "abc", {("match", "a-b"): ROW})
+    pair = type("Named", (), {"name": "a-b"})()
+    assert runs.run(runs.Job("nowhere", [pair], ["match"], runs.judge), path, "abc", 1) == {("match", "a-b"): ROW}
+
+
+def test_a_fault_is_a_row(scripts: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    runs, calls = scripts("runs"), []
+
+    def broken(source: Mesh, target: Mesh) -> None:
+        raise IndexError("no such vertex")
+
+    def find(name: str) -> Any:
+        calls.append(name)
+        return broken
+
+    pair = Pair("a-b", Path("a.off"), Path("b.off"), lambda *meshes: None, "self")  # type: ignore
+    monkeypatch.setattr(runs, "_by_name", lambda folder: {"a-b": pair})
+    monkeypatch.setattr(runs, "benchmark", lambda pairs, matcher: iter([matcher(None, None)]))
+    row = runs.judge(find, "set", "match", "a-b")
+    assert (row.pair, row.group, row.status) == ("a-b", "self", "failed: IndexError: no such vertex")
+    assert calls == ["match", "match"]  # once to warm up
+
+
+def test_each_pair_is_in_one_half(scripts: Any) -> None:
+    halves = scripts("halves")
+    assert tuple(halves.DEVELOPMENT) == SETS
+    for name in SETS:
+        both = [set(halves.half_of(name, half)) for half in halves.HALVES]
+        assert not both[0] & both[1]
+        assert both[1]
+
+
+@pytest.mark.skipif("GMDS_DATA" not in os.environ, reason="GMDS_DATA is not set")
+def test_the_lists_are_those_of_the_rule(scripts: Any) -> None:
+    halves = scripts("halves")
+    for file, lines in halves.lists().items():
+        assert (SCRIPTS / "pairs" / file).read_text(encoding="utf-8").splitlines() == lines
+    for name in SETS:
+        known = {pair.name for pair in halves.pairs_of(name)}
+        assert known == {pair for half in halves.HALVES for pair in halves.half_of(name, half)}
+
+
+@pytest.mark.skipif("GMDS_DATA" not in os.environ, reason="GMDS_DATA is not set")
+def test_missing_landmarks_are_those_the_other_animal_lacks(scripts: Any) -> None:
+    pairs = {pair.name: pair for pair in scripts("halves").pairs_of("shrec20_reversed")}
+    assert pairs["cow-bear"].missing is not None and len(pairs["cow-bear"].missing()) == 21
+    folder = Path(os.environ["GMDS_DATA"]) / "shrec20"
+    whole = {pair.name: pair for pair in dataset_pairs(folder)}
+    assert whole["pig-leopard"].missing is not None and len(whole["pig-leopard"].missing()) == 0
+    assert whole["dog-camel_a"].missing is not None and len(whole["dog-camel_a"].missing()) == 1  # not the hump
+
+
+def test_statuses_are_counted(scripts: Any) -> None:
+    tables = scripts("tables")
+    right = replace(ROW, direct=1.0)
+    rows = [ROW, replace(ROW, status="POOR"), right, right, right, replace(right, status="AMBIGUOUS")]
+    assert tables.statuses({"set": rows})[-2] == "| all | 2 | 1 | 50 % | 4 | 1 | 25 % |"
+    failed = BenchmarkRow("x", "", "failed: no")
+    lines = tables.accuracy({"scaled, self": [*rows, failed]})
+    assert "| scaled, self | 7 (1 failed) | 7.33 | 1.00 | 20.00 | 2.00 | - | 50.0 |" in lines[2]
+    assert [line.split(" | ")[1] for line in tables.failures({"set": [right, ROW, failed]})[2:-1]] == ["x", "a-b"]
+    half = tables.halves({"set": [ROW, replace(right, pair="c-d")]}, {"a-b"})
+    assert half[2] == "| set | 1 | 20.00 | 20.00 | 1 | 1.00 | 1.00 |"
+
+
+def test_a_change_inside_lasts_for_one_match(scripts: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    import gmds
+
+    ablation, seen = scripts("ablation"), []
+    inside = ModuleType("inside")
+    inside.TIME = 3  # type: ignore[attr-defined]
+    monkeypatch.setattr(gmds, "match", lambda source, target: seen.append(inside.TIME))
+    ablation.changed({inside: {"TIME": 7}})(None, None)
+    assert (seen, inside.TIME) == ([7], 3)
+    with pytest.raises(AttributeError, match="NOTHING"):
+        ablation.changed({inside: {"NOTHING": 0}})
+    assert all(callable(ablation.variant(name)) for name in ablation.VARIANTS)
+
+
+def test_the_peer_maps_the_source_to_the_target(scripts: Any) -> None:
+    """A shape without symmetry, renumbered by a permutation that is not its own inverse."""
+    pytest.importorskip("pyFM")
+    mesh = bumpy_sphere(3)
+    order = np.random.default_rng(0).permutation(mesh.n_vertices)
+    target = Mesh(mesh.vertices[order], np.argsort(order)[mesh.faces])
+    answer = scripts("peers").functional_map(mesh, target)
+    assert (answer.vertex_map() == np.argsort(order)).mean() > 0.95
+
+
+def test_turning_depends_on_the_name_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    import gmds.benchmarking.run
+
+    def state(pair: Any, matcher: Any, rng: np.random.Generator) -> BenchmarkRow:
+        return BenchmarkRow(pair.name, "", "GOOD", direct=float(rng.uniform()))
+
+    monkeypatch.setattr(gmds.benchmarking.run, "judged", state)
+    one, two = (type("Named", (), {"name": name})() for name in ("a-b", "c-d"))
+    both = list(benchmark([one, two], state))
+    assert list(benchmark([two], state)) == both[1:]
+    assert both[0].direct != both[1].direct
+
+
+def test_tables_hold_across_commits_that_only_move(
+    scripts: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    runs = scripts("runs")
+    monkeypatch.setattr(runs, "ROOT", tmp_path)
+
+    def git(*arguments: str) -> str:
+        who = ("-c", "user.name=a", "-c", "user.email=a@b.c")
+        done = subprocess.run(["git", "-C", tmp_path, *who, *arguments], capture_output=True, text=True, check=True)
+        return done.stdout.strip()
+
+    git("init", "-q")
+    (tmp_path / "gmds").mkdir()
+    (tmp_path / "geodesics").mkdir()
+    versions = []
+    for name, message in (("a", "One"), ("b", "Two\n\nMaps-unchanged: 40 of 40"), ("c", "Three")):
+        (tmp_path / "gmds" / f"{name}.py").write_text("")
+        git("add", ".")
+        git("commit", "-q", "-m", message)
+        versions.append(runs.code_version())
+    assert versions[0] == versions[1] != versions[2] == git("log", "-1", "--format=%h")
+    (tmp_path / "gmds" / "a.py").write_text("x = 1")
+    assert runs.code_version().startswith(f"{versions[2]}+")
