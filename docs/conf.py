@@ -6,8 +6,6 @@ where the repository is browsed alike. Nothing is downloaded.
 
 from __future__ import annotations
 
-import itertools
-import re
 import sys
 from pathlib import Path
 from typing import Any, Generic, TypeVar
@@ -28,7 +26,14 @@ class NDArray(Generic[TypeVar("T")]):
 
 numpy.typing.ArrayLike, numpy.typing.NDArray = ArrayLike, NDArray  # type: ignore[misc, assignment]
 
+import geodesics.arrays  # noqa: E402
+
+for word in ("Floats", "Integers", "Bools"):  # shown as these words, which the pages explain
+    setattr(geodesics.arrays, word, type(word, (), {"__module__": "geodesics.arrays"}))
+
+import docstrings  # noqa: E402
 import generated  # noqa: E402
+import mathml  # noqa: E402
 
 import gmds  # noqa: E402
 
@@ -41,7 +46,7 @@ project = "gmds"
 author = copyright = "the gmds developers"
 release = version = gmds.__version__
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx_copybutton"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_copybutton"]
 root_doc = "docs/index"
 include_patterns = [
     "README.md",
@@ -67,27 +72,11 @@ autodoc_typehints_format = "short"
 autodoc_member_order = "bysource"
 autodoc_default_options = {"members": True, "undoc-members": True}
 autodoc_preserve_defaults = True
+napoleon_google_docstring = False
+napoleon_use_ivar = True  # attributes have entries of their own already
+napoleon_use_rtype = False
 maximum_signature_line_length = 96
 python_use_unqualified_type_names = True
-
-
-def plain_docstrings(_app: Any, _what: str, _name: str, _thing: Any, _options: Any, lines: list[str]) -> None:
-    """Docstrings are plain text with `names`, formulas and tables; other marks of reStructuredText are escaped."""
-    plain: list[str] = []
-    for is_table, group in itertools.groupby(lines, key=lambda line: line.startswith(("| ", "|--"))):
-        plain += (_table if is_table else _escaped)(list(group))
-    lines[:] = plain
-
-
-def _escaped(lines: list[str]) -> list[str]:
-    between = re.compile(r"(`[^`]*`)|([*|]|_(?!\w))")
-    return [between.sub(lambda found: found[1] or "\\" + found[2], line) for line in lines]
-
-
-def _table(lines: list[str]) -> list[str]:
-    rows = [_escaped([cell.strip() for cell in line.strip("| ").split("|")]) for line in lines if "|--" not in line]
-    cells = [f"   {'  -' if column else '* -'} {cell}" for row in rows for column, cell in enumerate(row)]
-    return [".. list-table::", "   :header-rows: 1", "", *cells, ""]
 
 
 def complete(_app: Any, docname: str, source: list[str]) -> None:
@@ -97,5 +86,6 @@ def complete(_app: Any, docname: str, source: list[str]) -> None:
 
 
 def setup(app: Any) -> None:
-    app.connect("autodoc-process-docstring", plain_docstrings)
+    app.connect("autodoc-process-docstring", docstrings.plain, priority=400)  # before napoleon, which has 500
+    mathml.setup(app)
     app.connect("source-read", complete)
