@@ -1,4 +1,4 @@
-"""Docstrings as sphinx needs them: they are plain text with `names`, formulas, tables, and sections as numpy's have them.
+"""Docstrings as sphinx needs them: plain text with `names`, formulas, tables, and sections as those of numpy.
 
 Marks of reStructuredText that a reader of the source would not take for marks, such as the bars of |K| or the star of a
 product, are escaped. What is written for sphinx stays: roles, directives with what is indented below them, and lines

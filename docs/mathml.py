@@ -1,7 +1,7 @@
 """Formulas are typeset when the site is built, as MathML, which browsers draw by themselves: no script, no network.
 
 `:math:` and `.. math::` in docstrings; in pages also {math} of MyST. A command that does not exist is a warning, and so
-fails the build. On a system without a font for mathematics (Latin Modern Math, STIX Two Math) formulas are plainer, not absent.
+fails the build. On a system without a font for mathematics formulas are plainer, not absent.
 """
 
 from __future__ import annotations
