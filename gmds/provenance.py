@@ -18,7 +18,7 @@ def versions() -> dict[str, str]:
     return {"gmds": __version__, "python": platform.python_version(), **numeric}
 
 
-def described(distance: Callable[..., Any] | None, loss: Any) -> dict[str, str | None]:
+def method_in_words(distance: Callable[..., Any] | None, loss: Any) -> dict[str, str | None]:
     """The distance and the loss of a match, as its parameters tell them; None for the distance that is the default."""
     return {"distance": None if distance is None else in_words(distance), "loss": in_words(loss)}
 

@@ -29,7 +29,7 @@ from benchmarks.markdown import table
 from gmds.benchmarking.run import Matcher
 from gmds.cli.choices import chosen_distance
 from gmds.correspondence import Correspondence
-from gmds.matching.candidates import TIME, Embedded
+from gmds.matching.candidates import TIME, MapCandidate
 from gmds.matching.evidence import Evidence
 from gmds.matching.pair import SurfacePair
 from gmds.matching.proposals import Proposal
@@ -74,17 +74,18 @@ def changed(changes: Mapping[ModuleType | type, Mapping[str, Any]]) -> Matcher:
 
 def left_as_it_is(pair: SurfacePair, points: geodesics.SurfacePoints) -> Registered:
     """In place of the registration of a map."""
-    return registered(*pair.geometries, points.positions, growing=True, partial=True)
+    return registered(*pair.full, points.positions, growing=True, partial=True)
 
 
-def same(best: Embedded) -> Embedded:
-    """In place of finishing a map."""
+def same(best: MapCandidate) -> MapCandidate:
+    """In place of polishing a map."""
     return best
 
 
 def one_way(found: Evidence) -> float:
-    """The loss without the deformation of the target's outline."""
-    return found.outline.loss + (found.whole.loss if found.closed else found.outline.loss)
+    """The negative log-likelihood without the deformation of the simplified target."""
+    once = found.simplified.neg_log_likelihood
+    return once + (found.whole.neg_log_likelihood if found.closed else once)
 
 
 ARGUMENTS: dict[str, Matcher] = {
@@ -105,15 +106,20 @@ INSIDE: dict[str, Matcher] = {
     "starts from extremities only": changed({gmds.initialization: {"ALL": gmds.initialization.ALL[1:]}}),
     "starts in the metric of space only": changed({gmds.surface.measured: {"EXPONENTS": ()}}),
     "weighed one way": changed(
-        {Proposal: {"loss": property(lambda found: found.residuals[0].loss)}, Evidence: {"loss": property(one_way)}}
+        {
+            Proposal: {"neg_log_likelihood": property(lambda found: found.residuals[0].neg_log_likelihood)},
+            Evidence: {"neg_log_likelihood": property(one_way)},
+        }
     ),
-    "choice by stress": changed({Evidence: {"loss": property(lambda found: found.stress)}}),
-    "choice by the outline alone": changed({Evidence: {"loss": property(lambda found: found.outline.loss)}}),
+    "choice by stress": changed({Evidence: {"neg_log_likelihood": property(lambda found: found.stress)}}),
+    "choice by the outline alone": changed(
+        {Evidence: {"neg_log_likelihood": property(lambda found: found.simplified.neg_log_likelihood)}}
+    ),
     "no embedding by solve": changed({gmds.matching.candidates: {"ITERATIONS": 0}}),
     "no registration": changed(
-        {gmds.matching.candidates: {"registered": left_as_it_is}, gmds.matching.pipeline: {"finished": same}}
+        {gmds.matching.candidates: {"registered": left_as_it_is}, gmds.matching.pipeline: {"polished": same}}
     ),
-    "registered once": changed({gmds.matching.pipeline: {"finished": same}}),
+    "registered once": changed({gmds.matching.pipeline: {"polished": same}}),
     "no eigenfunctions in the registration": changed({gmds.matching.polishing: {"SPECTRAL_GAIN": 1.0}}),
     "no way back": changed({gmds.matching.polishing: {"RETURNS": 0}}),
 }

@@ -21,7 +21,7 @@ from gmds.batch.surface_file import write_surface
 from gmds.correspondence import Correspondence
 from gmds.landmarks.files import Landmarks, write_landmarks
 from gmds.mds.losses import LeastSquares
-from gmds.provenance import described
+from gmds.provenance import method_in_words
 from gmds.surface.measured import measure
 
 Contents = list[bytes]
@@ -67,7 +67,7 @@ def maps() -> Contents:
     """A map, and one whose members are others."""
     points = SurfacePoints.at_vertices(TARGET, np.arange(SOURCE.n_vertices))
     pairs = {"face": [0, 3], "barycentric": [[1, 0, 0], [0.5, 0.25, 0.25]]}
-    made = {"n_samples": 12, "orientation": "preserve", "rng": 1, **described(None, LeastSquares())}
+    made = {"n_samples": 12, "orientation": "preserve", "rng": 1, **method_in_words(None, LeastSquares())}
     made["landmarks"] = {"source": pairs, "target": pairs, "tolerance": [0.0, 0.05]}
     meta = {"parameters": made, "versions": {"gmds": __version__}, "evidence": {"stress": 0.1, "margin": 2.5}}
     answer = Correspondence.from_points(SOURCE, points, meta=meta)

@@ -26,9 +26,9 @@ from gmds.retrieval import (
     REGULAR_FREQUENCIES,
     Described,
     bag_distances,
-    described,
     learned,
     retrieval_scores,
+    signatures_of,
 )
 
 DEVELOPMENT = ("animal", "cat", "centaur", "david", "gorilla", "seahorse", "star3", "wolf")
@@ -134,7 +134,7 @@ def main() -> None:
     items: list[Item] = []
     parts: list[tuple[Described, ...]] = []
     for item in collection(*shapes, strengths=(1, 5) if settings.small else STRENGTHS):
-        parts.append(described(item.mesh, SINGLE))
+        parts.append(signatures_of(item.mesh, SINGLE))
         items.append(item.without_mesh())
     numbers = judged(items, parts)
     publish(settings.output, "table1_retrieval", table(numbers["recognition"]["all"]), numbers)

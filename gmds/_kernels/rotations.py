@@ -23,7 +23,7 @@ def nearest_rotations(products: Floats) -> tuple[Floats, Floats]:
     too near for that, all are found by Jacobi rotations.
     """
     n = len(products)
-    turns, sums = np.empty((n, 3, 3)), np.empty(n)
+    rotations, sums = np.empty((n, 3, 3)), np.empty(n)
     m, v, q = np.empty((4, 4)), np.empty((4, 4)), np.empty(4)
     for i in range(n):
         s = products[i]
@@ -49,13 +49,13 @@ def nearest_rotations(products: Floats) -> tuple[Floats, Floats]:
                 q[k] = v[k, best]
         sums[i] = top
         w, x, y, z = q[0], q[1], q[2], q[3]
-        turns[i, 0, 0] = w * w + x * x - y * y - z * z
-        turns[i, 1, 1] = w * w - x * x + y * y - z * z
-        turns[i, 2, 2] = w * w - x * x - y * y + z * z
-        turns[i, 0, 1], turns[i, 1, 0] = 2 * (x * y - w * z), 2 * (x * y + w * z)
-        turns[i, 0, 2], turns[i, 2, 0] = 2 * (x * z + w * y), 2 * (x * z - w * y)
-        turns[i, 1, 2], turns[i, 2, 1] = 2 * (y * z - w * x), 2 * (y * z + w * x)
-    return turns, sums
+        rotations[i, 0, 0] = w * w + x * x - y * y - z * z
+        rotations[i, 1, 1] = w * w - x * x + y * y - z * z
+        rotations[i, 2, 2] = w * w - x * x - y * y + z * z
+        rotations[i, 0, 1], rotations[i, 1, 0] = 2 * (x * y - w * z), 2 * (x * y + w * z)
+        rotations[i, 0, 2], rotations[i, 2, 0] = 2 * (x * z + w * y), 2 * (x * z - w * y)
+        rotations[i, 1, 2], rotations[i, 2, 1] = 2 * (y * z - w * x), 2 * (y * z + w * x)
+    return rotations, sums
 
 
 @njit

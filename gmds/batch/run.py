@@ -22,7 +22,7 @@ from gmds.batch.tasks import PairJob, ShapeJob, match_pair, measure_shape
 from gmds.batch.workers import local_client, outcomes
 from gmds.matching.pipeline import SAMPLES
 from gmds.mds.losses import LeastSquares
-from gmds.provenance import described, is_lasting, versions
+from gmds.provenance import is_lasting, method_in_words, versions
 from gmds.suggestions import check_keys
 
 Progress = Callable[[str, float], None]
@@ -115,7 +115,7 @@ class _Run:
             left.unlink(missing_ok=True)
         self.manifest = Manifest(self.folder / "manifest.jsonl")
         self.parameters = {
-            **described(self.options.get("distance"), self.options.get("loss") or LeastSquares()),
+            **method_in_words(self.options.get("distance"), self.options.get("loss") or LeastSquares()),
             "orientation": self.options.get("orientation", "preserve"),
             "rng": self.options.get("rng", 0),
         }

@@ -2,8 +2,9 @@
 
 Members: `original_*`, `mesh_*`: vertices and faces of the mesh, and of its largest part turned and resized;
 `face_index`; for each view (`view0`, `view1`, `view2`) its mass, eigenvalues, eigenfunctions and cells of farthest
-points; `curvature`; `outline_*`: vertices, faces and origin, unless the outline is the whole; `reversing`, if there is
-such a self-map. Numbers keep all their bits: surfaces from files are matched as the meshes are.
+points; `curvature`; `outline_*`: vertices, faces and origin of the simplified mesh, unless it is the whole;
+`reversing`, if there is such a self-map. Numbers keep all their bits: surfaces from files are matched as the meshes
+are.
 """
 
 from __future__ import annotations
@@ -21,8 +22,8 @@ from geodesics.io import atomic_write
 from geodesics.sampling import Cells
 from gmds.errors import SurfaceFileError
 from gmds.files.npz import read_npz
-from gmds.matching.pair import outline, reversing
-from gmds.registration.deformable import Geometry
+from gmds.matching.pair import reversing, simplified
+from gmds.registration.deformable import DeformableMesh
 from gmds.spectral.refinement import CARRIERS, GOALS
 from gmds.spectral.sample_maps import TARGET_SAMPLES
 from gmds.surface.measured import Surface
@@ -58,7 +59,7 @@ def _arrays(surface: Surface) -> Arrays:
         view.samples(TARGET_SAMPLES)
         found |= _view_arrays(f"view{number}", view)
     found["curvature"] = surface.squashed_curvature
-    few = outline(surface)
+    few = simplified(surface)
     if few.mesh is not surface.mesh:
         found |= {"outline_vertices": few.mesh.vertices, "outline_faces": few.mesh.faces, "outline_origin": few.origin}
     turned = reversing(surface)
@@ -81,7 +82,7 @@ def _surface(arrays: Arrays) -> Surface:
     views = tuple(_view(arrays, f"view{i}", mesh) for i in range(sum(f"view{i}_mass" in arrays for i in range(9))))
     vars(surface)["views"], vars(surface)["regular"] = views, views[-1]
     vars(surface)["squashed_curvature"] = arrays["curvature"]
-    keep(outline, surface, _outline(arrays, surface))
+    keep(simplified, surface, _simplified(arrays, surface))
     keep(reversing, surface, arrays.get("reversing"))
     return surface
 
@@ -94,9 +95,9 @@ def _view(arrays: Arrays, name: str, mesh: Mesh) -> View:
     return view
 
 
-def _outline(arrays: Arrays, surface: Surface) -> Geometry:
+def _simplified(arrays: Arrays, surface: Surface) -> DeformableMesh:
     if "outline_origin" not in arrays:
-        return Geometry.of(surface)
+        return DeformableMesh.of(surface)
     origin = arrays["outline_origin"]
     mesh = Mesh(arrays["outline_vertices"], arrays["outline_faces"])
-    return Geometry(mesh, origin, surface.squashed_curvature[origin])
+    return DeformableMesh(mesh, origin, surface.squashed_curvature[origin])

@@ -10,8 +10,8 @@ from geodesics import Mesh
 from geodesics.arrays import Floats, Integers
 from geodesics.threads import on_one_blas_thread
 from gmds import initialization
-from gmds.comparison.profiles import distances_of, shares, views
-from gmds.initialization.shortlist import hypotheses
+from gmds.comparison.profiles import equal_area_samples, normalised_distances, views
+from gmds.initialization.shortlist import shortlist
 from gmds.spectral.sample_maps import SampledPair
 from gmds.surface.view import View
 
@@ -47,16 +47,16 @@ def embedding_distortion(ours: Sequence[View], theirs: Sequence[View]) -> float:
 def _one_way(source: Sequence[View], target: Sequence[View]) -> list[float]:
     """In each metric the least distortion of the maps found from source to target, in whichever metric they started."""
     pairs = [SampledPair.of(*both, sense=0) for both in zip(source, target, strict=True)]
-    found = [(pair, images) for pair in pairs for images in hypotheses(pair, initialization.ALL, KEPT)]
+    found = [(pair, images) for pair in pairs for images in shortlist(pair, initialization.ALL, KEPT)]
     return [_embedded(pair, found) for pair in pairs]
 
 
 def _embedded(pair: SampledPair, found: Sequence[tuple[SampledPair, Integers]]) -> float:
     """The least distortion to which the maps found descend in the metric of `pair`."""
-    here = shares(pair.source)
-    there = np.union1d(pair.target_samples, shares(pair.target))
-    ours, theirs = distances_of(pair.source, here), distances_of(pair.target, there)
-    starts = [np.searchsorted(there, other.carried(images, here, there)) for other, images in found]
+    here = equal_area_samples(pair.source)
+    there = np.union1d(pair.target_samples, equal_area_samples(pair.target))
+    ours, theirs = normalised_distances(pair.source, here), normalised_distances(pair.target, there)
+    starts = [np.searchsorted(there, other.extended(images, here, there)) for other, images in found]
     first = [np.abs(ours - theirs[np.ix_(start, start)]).mean() for start in starts]
     return min(descended(ours, theirs, starts[i]) for i in np.argsort(first, kind="stable")[:DESCENDED])
 

@@ -28,7 +28,7 @@ from gmds.surface.view import View
 Progress = Callable[[str, float], None]
 
 IN_MEMORY = 40  # surfaces whose eigenfunctions are kept at a time
-_SETTINGS = f"{profiles.FUNCTIONS} {profiles.SHARES} {profiles.QUANTILES} {SMOOTHING}"
+_SETTINGS = f"{profiles.FUNCTIONS} {profiles.EQUAL_AREA_SAMPLES} {profiles.QUANTILES} {SMOOTHING}"
 _EMBEDDING = f"{_SETTINGS} {morphometry.KEPT} {morphometry.DESCENDED} {morphometry.SWEEPS}"
 
 

@@ -18,7 +18,7 @@ from gmds.surface.view import View
 
 FUNCTIONS = 40  # eigenfunctions of the commute-time distance
 CELLS = 120  # of farthest points, whose areas make the shares
-SHARES = 100  # of equal area, each standing for its part of the surface
+EQUAL_AREA_SAMPLES = 100  # vertices, each standing for as much area of the surface
 QUANTILES = 40  # that tell the distances from a share to all others
 
 METRICS: tuple[Callable[[Mesh], Metric], ...] = tuple(
@@ -34,7 +34,7 @@ def distance_profile(mesh: Mesh | Surface, metrics: Sequence[Callable[[Mesh], Me
     1 and 1/2 of the family |K|^a g (2.1): the size of the surface has no part in it, that of its parts a small one. The
     first is made for parts that changed much, the second for those that did not. Raises `TooFewVertices` (E113).
     """
-    return np.stack([_quantiles(distances_of(view, shares(view))) for view in views(mesh, metrics)])
+    return np.stack([_quantiles(normalised_distances(view, equal_area_samples(view))) for view in views(mesh, metrics)])
 
 
 def least_distortion(one: Floats, other: Floats) -> float:
@@ -56,25 +56,25 @@ def views(mesh: Mesh | Surface, metrics: Sequence[Callable[[Mesh], Metric]] = ME
     return tuple(View.of(eigenpairs(metric(surface.mesh), count)) for metric in metrics)
 
 
-def shares(view: View) -> Integers:
-    """Vertices (`SHARES`,) that stand for equal areas: farthest points, each as often as its Voronoi cell is large."""
+def equal_area_samples(view: View) -> Integers:
+    """Vertices (100,) that stand for equal areas: farthest points, each as often as its Voronoi cell is large."""
     distance, used = view.distance(FUNCTIONS), view.usable
     first = int((distance.embedding**2).sum(axis=1).argmax())
     cells = farthest_point_cells(distance, min(CELLS, len(used)), first)
     area = np.bincount(cells.nearest[used], view.spectrum.mass[used], len(cells.samples))
-    wanted = SHARES * area / area.sum()
+    wanted = EQUAL_AREA_SAMPLES * area / area.sum()
     times = np.floor(wanted).astype(np.int64)
-    times[np.argsort(times - wanted, kind="stable")[: SHARES - times.sum()]] += 1
+    times[np.argsort(times - wanted, kind="stable")[: EQUAL_AREA_SAMPLES - times.sum()]] += 1
     return np.repeat(cells.samples, times)
 
 
-def distances_of(view: View, vertices: Integers) -> Floats:
-    """Commute-time distances between vertices (p, p) over the mean of those between shares."""
-    return _between(view, vertices) / _between(view, shares(view)).mean()
+def normalised_distances(view: View, vertices: Integers) -> Floats:
+    """Commute-time distances between vertices (p, p) over the mean of those between equal-area samples."""
+    return _between(view, vertices) / _between(view, equal_area_samples(view)).mean()
 
 
 def _between(view: View, vertices: Integers) -> Floats:
-    rows = view.embedding[vertices]
+    rows = view.commute_time_embedding[vertices]
     return euclidean_distances(rows, rows)
 
 

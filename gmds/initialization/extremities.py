@@ -23,8 +23,7 @@ def extremities(pair: SampledPair) -> list[Integers]:
     ours, theirs = surface_extremities(pair.source), surface_extremities(pair.target)
     if min(len(ours), len(theirs)) < 3:
         return []
-    here = euclidean_distances(pair.source.embedding[ours], pair.source.embedding[ours])
-    there = euclidean_distances(pair.target.embedding[theirs], pair.target.embedding[theirs])
+    here, there = _distances(pair.source, ours, ours), _distances(pair.target, theirs, theirs)
     if len(ours) <= len(theirs):
         assigned = [(ours, theirs[list(a)]) for a in _assignments(here, there)]
     else:
@@ -34,9 +33,8 @@ def extremities(pair: SampledPair) -> list[Integers]:
 
 def trilaterated(pair: SampledPair, ours: Integers, theirs: Integers) -> Integers:
     """Each sample goes where its distances to the vertices `ours` (l,) are those to `theirs` (l,) on the target."""
-    queries = euclidean_distances(pair.source.embedding[pair.source_samples], pair.source.embedding[ours])
-    rows = euclidean_distances(pair.target.embedding[pair.target_samples], pair.target.embedding[theirs])
-    return nearest_rows(queries, rows)
+    queries = _distances(pair.source, pair.source_samples, ours)
+    return nearest_rows(queries, _distances(pair.target, pair.target_samples, theirs))
 
 
 def surface_extremities(view: View) -> Integers:
@@ -44,7 +42,8 @@ def surface_extremities(view: View) -> Integers:
 
     As the embedding is centred, the mean squared distance from x is |e(x)|^2 and a constant.
     """
-    far = (view.embedding**2).sum(axis=1)
+    embedding = view.commute_time_embedding
+    far = (embedding**2).sum(axis=1)
     highest, faces = far.copy(), view.mesh.faces
     for _ in range(RINGS):
         around = highest[faces].max(axis=1)
@@ -54,10 +53,16 @@ def surface_extremities(view: View) -> Integers:
     peaks = peaks[np.argsort(-far[peaks], kind="stable")]
     kept: list[int] = []
     for peak in peaks:
-        gaps = np.linalg.norm(view.embedding[kept] - view.embedding[peak], axis=1)
+        gaps = np.linalg.norm(embedding[kept] - embedding[peak], axis=1)
         if (gaps > APART * np.sqrt(far[peaks[0]])).all():
             kept.append(int(peak))
     return np.array(kept[:MOST], dtype=np.int64)
+
+
+def _distances(view: View, ours: Integers, theirs: Integers) -> Floats:
+    """Commute-time distances (p, q) between vertices (p,) and (q,) of a view."""
+    embedding = view.commute_time_embedding
+    return euclidean_distances(embedding[ours], embedding[theirs])
 
 
 def _assignments(few: Floats, many: Floats) -> Integers:

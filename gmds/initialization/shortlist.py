@@ -15,7 +15,7 @@ DISTINCT = 0.12  # of the mean distance: how far apart two maps must be to count
 EARLY = 3  # steps of refinement before the rest is dropped
 
 
-def hypotheses(
+def shortlist(
     pair: SampledPair, starts: Sequence[Callable[[SampledPair], list[Integers]]], count: int
 ) -> list[Integers]:
     """At most `count` sample maps, all apart from each other, those of least stress first."""

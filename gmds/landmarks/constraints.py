@@ -1,4 +1,4 @@
-"""What is known of a map beforehand: landmarks, as the parts of matching see them."""
+"""Landmarks as the parts of matching use them: pairs of points, each with a tolerance."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from geodesics.closest import closest_on_triangles
 
 
 @dataclass(frozen=True, eq=False)
-class Marks:
+class WeightedCorners:
     """Points of a surface as `corners` (k, 3), its vertices, with `weights` (k, 3): whichever way its faces turn."""
 
     corners: Integers
     weights: Floats
 
     @classmethod
-    def of(cls, points: SurfacePoints) -> Marks:
+    def of(cls, points: SurfacePoints) -> WeightedCorners:
         """The points of a mesh."""
         return cls(points.mesh.faces[points.face], points.barycentric)
 
     @classmethod
-    def closest(cls, places: Floats, vertices: Floats, faces: Integers) -> Marks:
+    def closest(cls, places: Floats, vertices: Floats, faces: Integers) -> WeightedCorners:
         """The points of a mesh that are closest to places (k, 3)."""
         face, weights, _ = closest_on_triangles(places, vertices, faces)
         return cls(faces[face], weights)
@@ -38,26 +38,26 @@ class Marks:
         """The heaviest corners (k,)."""
         return self.corners[np.arange(len(self.corners)), self.weights.argmax(axis=1)]
 
-    def __getitem__(self, rows: Integers | Bools) -> Marks:
-        return Marks(self.corners[rows], self.weights[rows])
+    def __getitem__(self, rows: Integers | Bools) -> WeightedCorners:
+        return WeightedCorners(self.corners[rows], self.weights[rows])
 
 
 @dataclass(frozen=True, eq=False)
-class Known:
+class LandmarkConstraints:
     """Corresponding points of two surfaces, k each, and the `tolerance` (k,) in root areas: 0 for hard landmarks."""
 
-    source: Marks
-    target: Marks
+    source: WeightedCorners
+    target: WeightedCorners
     tolerance: Floats
 
-    def __getitem__(self, rows: Integers | Bools) -> Known:
-        return Known(self.source[rows], self.target[rows], self.tolerance[rows])
+    def __getitem__(self, rows: Integers | Bools) -> LandmarkConstraints:
+        return LandmarkConstraints(self.source[rows], self.target[rows], self.tolerance[rows])
 
     def __len__(self) -> int:
         return len(self.tolerance)
 
     @property
-    def hard(self) -> Known:
+    def hard(self) -> LandmarkConstraints:
         """Those that hold exactly."""
         return self[self.tolerance <= 0]
 
@@ -69,7 +69,7 @@ class Known:
             rows = rows[np.sort(np.unique(rows[:, column], return_index=True)[1])]
         return rows[:, 0], rows[:, 1]
 
-    def within(self, source: Integers, target: Integers) -> Known | None:
+    def within(self, source: Integers, target: Integers) -> LandmarkConstraints | None:
         """Those that lie on these faces of both surfaces, if any do."""
         ours, theirs = np.isin(self.source.vertices, source), np.isin(self.target.vertices, target)
         return self[ours & theirs] if (ours & theirs).any() else None

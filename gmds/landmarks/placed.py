@@ -12,7 +12,7 @@ from geodesics.arrays import Floats
 from geodesics.errors import Note
 from geodesics.points import mixed
 from gmds.correspondence import Correspondence
-from gmds.landmarks.constraints import Known, Marks
+from gmds.landmarks.constraints import LandmarkConstraints, WeightedCorners
 
 DOUBTFUL = 3  # tolerances by which a map misses a soft landmark that may be wrong
 
@@ -27,11 +27,12 @@ class PlacedLandmarks:
     notes: tuple[Note, ...] = ()
 
     @property
-    def known(self) -> Known:
+    def constraints(self) -> LandmarkConstraints:
         """As the parts of matching see them."""
-        return Known(Marks.of(self.on_source), Marks.of(self.on_target), self.tolerance)
+        here, there = WeightedCorners.of(self.on_source), WeightedCorners.of(self.on_target)
+        return LandmarkConstraints(here, there, self.tolerance)
 
-    def described(self) -> dict[str, Any]:
+    def as_parameters(self) -> dict[str, Any]:
         """All of it, as JSON can carry it."""
         sides = {"source": self.on_source, "target": self.on_target}
         points = {
@@ -46,12 +47,12 @@ class PlacedLandmarks:
         """
         hard = np.flatnonzero((self.tolerance <= 0) & (self.on_source.barycentric.max(axis=1) >= 1 - 1e-9))
         place = np.zeros(len(found.points), dtype=np.int64)
-        known = np.zeros(len(place), dtype=bool)
+        fixed = np.zeros(len(place), dtype=bool)
         rows = self.on_source[hard].nearest_vertices()
-        place[rows], known[rows] = hard, True
-        points = mixed(known, self.on_target[place], found.points)
-        meta = {**found.meta, "parameters": {**found.meta.get("parameters", {}), "landmarks": self.described()}}
-        return replace(found, points=points, valid=found.valid | known, meta=meta), self._doubts(found)
+        place[rows], fixed[rows] = hard, True
+        points = mixed(fixed, self.on_target[place], found.points)
+        meta = {**found.meta, "parameters": {**found.meta.get("parameters", {}), "landmarks": self.as_parameters()}}
+        return replace(found, points=points, valid=found.valid | fixed, meta=meta), self._doubts(found)
 
     def _doubts(self, found: Correspondence) -> list[Note]:
         sent = self.on_source.interpolate(found.points.positions)

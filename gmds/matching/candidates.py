@@ -1,4 +1,4 @@
-"""Maps under consideration: lifted from the outlines, refined, embedded by the solver, registered, and weighed."""
+"""Candidate maps: prolonged from the simplified meshes, refined, placed by the solver, registered, and weighed."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ ITERATIONS = 20
 
 
 @dataclass(frozen=True, eq=False)
-class Embedded:
+class MapCandidate:
     """A map to `points` (n,) of the target, whose samples `solve` placed in the `views` of both surfaces."""
 
     pair: SurfacePair
@@ -38,13 +38,13 @@ class Embedded:
     evidence: Evidence
 
 
-def embed(
+def make_candidate(
     pair: SurfacePair,
     proposal: Proposal,
     loss: Loss,
     count: int,
     given: tuple[tuple[View, View], Measured] | None = None,
-) -> Embedded:
+) -> MapCandidate:
     """A proposal carried to all vertices: aligned, `count` samples embedded by `solve`, extended, and registered.
 
     Generalised multidimensional scaling compares diffusion distances (3.1) in the metric of the target in which the
@@ -60,15 +60,15 @@ def embed(
     else:
         views, distances = given
         points, solution = placed(pair, upsampled(*views, images), views, loss, count, distances)
-        deformation = as_it_is(*pair.geometries, points.positions, growing=True, partial=True)
+        deformation = as_it_is(*pair.full, points.positions, growing=True, partial=True)
     weighed = evidence(pair, views, points, proposal.residuals, deformation.residuals)
-    return Embedded(pair, points, views, solution, deformation, weighed)
+    return MapCandidate(pair, points, views, solution, deformation, weighed)
 
 
 def lifted(pair: SurfacePair, proposal: Proposal) -> Integers:
     """For every source vertex the target vertex (n,) that the proposal's deformation brings it closest to."""
-    (source, target), outline = pair.geometries, pair.outlines[0]
-    y = outline.carried(proposal.registered.y, source.mesh.vertices)
+    (source, target), simplified = pair.full, pair.simplified[0]
+    y = simplified.deformed(proposal.registered.y, source.mesh.vertices)
     return target.usable[target.tree.query(source.moved_features(y))[1]]
 
 
@@ -92,7 +92,7 @@ def registered(
     pair: SurfacePair, points: SurfacePoints, stages: Sequence[tuple[float, int]] = (COARSE[0], *COARSE, *FINE)
 ) -> Registered:
     """The source deformed from where the map to `points` (n,) sends it; left there if that is a congruence already."""
-    source, target = pair.geometries
+    source, target = pair.full
     y = points.positions
     same = as_it_is(source, target, y, growing=True, partial=True)
     if same.residuals.is_congruence:
@@ -100,7 +100,7 @@ def registered(
     return register(source, target, y, stages, growing=True, partial=True)
 
 
-def mirrored(best: Embedded) -> Embedded | None:
+def mirrored(best: MapCandidate) -> MapCandidate | None:
     """The map composed with a reflection of one of the surfaces, if there is one."""
     pair = best.pair
     ours, theirs = pair.reflections
@@ -110,7 +110,7 @@ def mirrored(best: Embedded) -> Embedded | None:
         points = SurfacePoints.at_vertices(pair.target.mesh, theirs[best.points.nearest_vertices()])
     else:
         return None
-    deformation = as_it_is(*pair.geometries, points.positions, growing=True, partial=True)
-    outlines = Proposal.of(pair, points.positions[pair.outlines[0].origin]).residuals
-    weighed = evidence(pair, best.views, points, outlines, deformation.residuals)
+    deformation = as_it_is(*pair.full, points.positions, growing=True, partial=True)
+    simplified = Proposal.of(pair, points.positions[pair.simplified[0].origin]).residuals
+    weighed = evidence(pair, best.views, points, simplified, deformation.residuals)
     return replace(best, points=points, deformation=deformation, evidence=weighed)

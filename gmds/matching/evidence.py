@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 
@@ -22,16 +23,17 @@ LEAST_FOLDED = 1e-3  # share of the area, twice: so much is folded over at a ver
 class Evidence:
     """What speaks for a map.
 
-    `outline`: what is left when the outline of the source is deformed as the map says, its parts keeping their sizes;
-    `outline_back`: when that of the target is, the other way; `whole`: when all of the source is, and parts may grow;
+    `simplified`: what is left when the simplified source is deformed as the map says, its parts keeping their sizes;
+    `simplified_back`: when the simplified target is, the other way; `whole`: when all of the source is, and parts may
+    change size;
     `stress`: mean |d_S - d_Q| between samples over mean d_S; `orientation`: signed share of the area that keeps it;
     `folded`: share of the area whose orientation the map does not treat as the rest is meant to be;
     `closed`: whether neither surface has a boundary; `landmark_error`: mean distance of the landmarks, if any, from
     where they belong, in root areas.
     """
 
-    outline: Residuals
-    outline_back: Residuals
+    simplified: Residuals
+    simplified_back: Residuals
     whole: Residuals
     stress: float
     orientation: float
@@ -40,25 +42,39 @@ class Evidence:
     landmark_error: float = 0.0
 
     @property
-    def outlines(self) -> tuple[Residuals, Residuals]:
+    def both_simplified(self) -> tuple[Residuals, Residuals]:
         """Both ways."""
-        return self.outline, self.outline_back
+        return self.simplified, self.simplified_back
 
     @property
-    def loss(self) -> float:
+    def neg_log_likelihood(self) -> float:
         """Minus the log-likelihood up to a constant: the deformations, with what they miss, and what is folded over.
 
-        Where there is a boundary, and parts may be missing, parts that grow could hide it: there the outlines decide.
+        Where there is a boundary, and parts may be missing, parts that grow could hide it: there the simplified meshes
+        decide.
         Elsewhere a map that swaps two legs, and not what is between them, folds that.
         """
-        loss = sum(residuals.loss for residuals in self.outlines)
+        total = sum(residuals.neg_log_likelihood for residuals in self.both_simplified)
         if not self.closed:
-            return loss
-        return loss + self.whole.loss + self.fold_loss
+            return total
+        return total + self.whole.neg_log_likelihood + self.fold_neg_log_likelihood
+
+    def as_meta(self) -> dict[str, Any]:
+        """What `Correspondence.meta["evidence"]` says of it, by the names of version 1 of map files."""
+        return {
+            "outline": asdict(self.simplified),
+            "outline_back": asdict(self.simplified_back),
+            "whole": asdict(self.whole),
+            "stress": self.stress,
+            "orientation": self.orientation,
+            "folded": self.folded,
+            "closed": self.closed,
+            "landmark_error": self.landmark_error,
+        }
 
     @property
-    def fold_loss(self) -> float:
-        """The part of it that is for what is folded over."""
+    def fold_neg_log_likelihood(self) -> float:
+        """The part of it that what is folded over accounts for."""
         return float(np.log(max(2 * self.folded, LEAST_FOLDED)))
 
 
@@ -66,23 +82,26 @@ def evidence(
     pair: SurfacePair,
     views: tuple[View, View],
     points: SurfacePoints,
-    outlines: tuple[Residuals, Residuals],
+    simplified: tuple[Residuals, Residuals],
     whole: Residuals,
 ) -> Evidence:
-    """What speaks for a map to `points` (n,) of the target, with distances measured in `views`; residuals are known."""
+    """What speaks for a map to `points` (n,) of the target, with distances measured in `views`.
+
+    `simplified` and `whole` are the residuals of the simplified source and target, and of the whole source.
+    """
     ours, theirs = (view.distance(min(FUNCTIONS, view.functions.shape[1])).embedding for view in views)
     samples = views[0].samples(SAMPLES)
     here, there = (euclidean_distances(rows, rows) for rows in (ours[samples], points[samples].interpolate(theirs)))
-    normals = points.interpolate(pair.geometries[1].normals)
+    normals = points.interpolate(pair.full[1].normals)
     score = orientation_score(pair.source.mesh, pair.target.mesh, points.positions, normals)
-    miss = 0.0 if pair.known is None else pair.known.miss(points, pair.target.mesh.vertices)
+    miss = 0.0 if pair.landmarks is None else pair.landmarks.miss(points, pair.target.mesh.vertices)
     return Evidence(
-        outline=outlines[0],
-        outline_back=outlines[1],
+        simplified=simplified[0],
+        simplified_back=simplified[1],
         whole=whole,
         stress=float(np.abs(here - there).mean() / here.mean()),
         orientation=-score if pair.reflected else score,
         folded=(1 - score) / 2,
-        closed=not any(geometry.boundary.any() for geometry in pair.geometries),
+        closed=not any(mesh.boundary.any() for mesh in pair.full),
         landmark_error=miss,
     )

@@ -13,9 +13,9 @@ from geodesics.closest import closest_on_triangles
 from geodesics.repair.decimation import decimated
 from geodesics.threads import threads
 from gmds.correspondence import Correspondence
-from gmds.landmarks.constraints import Known, Marks
+from gmds.landmarks.constraints import LandmarkConstraints, WeightedCorners
 from gmds.maps.point_map import Candidate
-from gmds.registration.deformable import Geometry
+from gmds.registration.deformable import DeformableMesh
 from gmds.spectral.orientation import orientation_score
 from gmds.surface.measured import Surface, measure, on_original
 
@@ -40,7 +40,7 @@ def coarse(surface: Surface) -> Surface:
 
 
 @dataclass(frozen=True, eq=False)
-class Carrier:
+class CoarseCopies:
     """Carries maps of the `copies` of two surfaces, each a copy or the surface itself, to the surfaces."""
 
     source: Surface
@@ -48,22 +48,22 @@ class Carrier:
     copies: tuple[Surface, Surface]
 
     @classmethod
-    def of(cls, source: Surface, target: Surface) -> Carrier | None:
-        """The carrier of two surfaces that are matched; None where there are no copies."""
+    def of(cls, source: Surface, target: Surface) -> CoarseCopies | None:
+        """The copies of two surfaces that are matched; None where there are no copies."""
         copies = coarse(source), coarse(target)
         return None if copies == (source, target) else cls(source, target, copies)
 
-    def landmarks(self, known: Known) -> Known:
+    def landmarks(self, landmarks: LandmarkConstraints) -> LandmarkConstraints:
         """Corresponding points of the surfaces as those of their copies that are closest."""
         ours, theirs = (
-            Marks.closest(marks.positions(surface.mesh.vertices), places, copy.mesh.faces)
-            for surface, copy, places, marks in zip(
-                (self.source, self.target), self.copies, self._places, (known.source, known.target), strict=True
+            WeightedCorners.closest(corners.positions(surface.mesh.vertices), places, copy.mesh.faces)
+            for surface, copy, places, corners in zip(
+                (self.source, self.target), self.copies, self._places, (landmarks.source, landmarks.target), strict=True
             )
         )
-        return Known(ours, theirs, known.tolerance)
+        return LandmarkConstraints(ours, theirs, landmarks.tolerance)
 
-    def carried(self, found: Correspondence) -> Correspondence:
+    def prolonged(self, found: Correspondence) -> Correspondence:
         """A map between the copies as one between the whole surfaces.
 
         A vertex goes with the point of the copy that it is closest to, and from there to the closest point, in position
@@ -110,7 +110,7 @@ class Carrier:
 
 
 @memoized
-def _whole(surface: Surface) -> Geometry:
+def _whole(surface: Surface) -> DeformableMesh:
     """All of a surface; what it is carried by takes no curvature."""
     n = surface.mesh.n_vertices
-    return Geometry(surface.mesh, np.arange(n), np.zeros(n))
+    return DeformableMesh(surface.mesh, np.arange(n), np.zeros(n))

@@ -1,4 +1,4 @@
-"""What is to be matched: two measured surfaces, and what is known of them before any map."""
+"""What is to be matched: two measured surfaces, and what is computed of them before any map."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from geodesics.caching import cached_property, memoized
 from geodesics.points import joined
 from geodesics.threads import side_by_side
 from gmds.initialization.reflection import mirror
-from gmds.landmarks.constraints import Known, Marks
+from gmds.landmarks.constraints import LandmarkConstraints, WeightedCorners
 from gmds.registration.anchors import Anchors
-from gmds.registration.deformable import Geometry
+from gmds.registration.deformable import DeformableMesh
 from gmds.spectral.refinement import Refiner
 from gmds.surface.measured import Surface
 
@@ -23,31 +23,31 @@ WEIGHT = 10  # samples that a landmark is worth
 
 @dataclass(frozen=True, eq=False)
 class SurfacePair:
-    """What is to be matched: two surfaces, and what is `known` of the map, or None.
+    """What is to be matched: two surfaces, and the `landmarks` given of the map, or None.
 
     `reflected`: whether the target is the mirror image of what was given, for maps that reverse orientation.
     """
 
     source: Surface
     target: Surface
-    known: Known | None = None
+    landmarks: LandmarkConstraints | None = None
     reflected: bool = False
 
     @cached_property
-    def outlines(self) -> tuple[Geometry, Geometry]:
+    def simplified(self) -> tuple[DeformableMesh, DeformableMesh]:
         """Both surfaces with few faces."""
-        source, target = side_by_side(outline, (self.source, self.target))
+        source, target = side_by_side(simplified, (self.source, self.target))
         return self._anchored(source, target)
 
     @cached_property
-    def geometries(self) -> tuple[Geometry, Geometry]:
+    def full(self) -> tuple[DeformableMesh, DeformableMesh]:
         """Both surfaces with all their faces."""
-        return self._anchored(geometry(self.source), geometry(self.target))
+        return self._anchored(full(self.source), full(self.target))
 
-    def _anchored(self, source: Geometry, target: Geometry) -> tuple[Geometry, Geometry]:
-        if self.known is None:
+    def _anchored(self, source: DeformableMesh, target: DeformableMesh) -> tuple[DeformableMesh, DeformableMesh]:
+        if self.landmarks is None:
             return source, target
-        return anchored(self.known, (self.source.mesh.vertices, self.target.mesh.vertices), source, target)
+        return anchored(self.landmarks, (self.source.mesh.vertices, self.target.mesh.vertices), source, target)
 
     @cached_property
     def refiner(self) -> Refiner:
@@ -62,7 +62,7 @@ class SurfacePair:
 
     def with_landmarks(self, samples: Integers, points: SurfacePoints) -> tuple[Integers, SurfacePoints]:
         """Placed samples with the hard landmarks added, often enough that the extension heeds them."""
-        hard = None if self.known is None else self.known.hard
+        hard = None if self.landmarks is None else self.landmarks.hard
         if hard is None or len(hard) == 0:
             return samples, points
         ours, theirs = (np.repeat(side, WEIGHT) for side in hard.vertices)
@@ -70,15 +70,15 @@ class SurfacePair:
 
 
 @memoized
-def outline(surface: Surface) -> Geometry:
+def simplified(surface: Surface) -> DeformableMesh:
     """The surface with few faces."""
-    return Geometry.outline(surface)
+    return DeformableMesh.simplified(surface)
 
 
 @memoized
-def geometry(surface: Surface) -> Geometry:
+def full(surface: Surface) -> DeformableMesh:
     """The surface with all its faces."""
-    return Geometry.of(surface)
+    return DeformableMesh.of(surface)
 
 
 @memoized
@@ -88,14 +88,14 @@ def reversing(surface: Surface) -> Integers | None:
 
 
 def anchored(
-    known: Known, places: tuple[Floats, Floats], source: Geometry, target: Geometry
-) -> tuple[Geometry, Geometry]:
-    """Both geometries, of surfaces with vertices at `places` (n, 3), (q, 3), each with anchors on the other."""
+    landmarks: LandmarkConstraints, places: tuple[Floats, Floats], source: DeformableMesh, target: DeformableMesh
+) -> tuple[DeformableMesh, DeformableMesh]:
+    """Both meshes, of surfaces with vertices at `places` (n, 3), (q, 3), each with anchors on the other."""
     meshes = source.mesh, target.mesh
     here, there = (
-        Marks.closest(marks.positions(place), mesh.vertices, mesh.faces)
-        for marks, place, mesh in zip((known.source, known.target), places, meshes, strict=True)
+        WeightedCorners.closest(corners.positions(place), mesh.vertices, mesh.faces)
+        for corners, place, mesh in zip((landmarks.source, landmarks.target), places, meshes, strict=True)
     )
-    ours = Anchors(here.corners, here.weights, there.positions(meshes[1].vertices), known.tolerance)
-    theirs = Anchors(there.corners, there.weights, here.positions(meshes[0].vertices), known.tolerance)
+    ours = Anchors(here.corners, here.weights, there.positions(meshes[1].vertices), landmarks.tolerance)
+    theirs = Anchors(there.corners, there.weights, here.positions(meshes[0].vertices), landmarks.tolerance)
     return replace(source, anchors=ours), replace(target, anchors=theirs)

@@ -17,15 +17,15 @@ from gmds.correspondence import Correspondence
 from gmds.errors import SampleCountError
 from gmds.initialization.from_landmarks import landmarks as from_landmarks
 from gmds.landmarks.checking import place_landmarks
-from gmds.matching.candidates import Embedded, embed, mirrored
-from gmds.matching.large_surfaces import Carrier
+from gmds.matching.candidates import MapCandidate, make_candidate, mirrored
+from gmds.matching.large_surfaces import CoarseCopies
 from gmds.matching.notes import match_notes
 from gmds.matching.pair import SurfacePair
-from gmds.matching.polishing import finished
+from gmds.matching.polishing import polished
 from gmds.matching.proposals import Start, distinct, proposals
-from gmds.matching.result import answer, contenders
+from gmds.matching.result import contenders, correspondence_of
 from gmds.mds.losses import LeastSquares, Loss
-from gmds.provenance import described
+from gmds.provenance import method_in_words
 from gmds.suggestions import suggest_keywords
 from gmds.surface.measured import Surface, measure, view_of
 
@@ -76,37 +76,37 @@ def match(  # noqa: PLR0913 - the signature is a promise
     measured, facing = (s if isinstance(s, Surface) else measure(Mesh.from_object(s)) for s in (source, target))
     loss = LeastSquares() if loss is None else loss
     given = None if landmarks is None else place_landmarks(landmarks, measured.original, facing.original)
-    known = None if given is None else given.known.within(measured.mesh.faces, facing.mesh.faces)
+    constraints = None if given is None else given.constraints.within(measured.mesh.faces, facing.mesh.faces)
     count = SAMPLES if n_samples is None else check_sample_count(n_samples, measured.original)
     report = progress or (lambda stage, fraction: None)
     started = time.perf_counter()
 
     report("measuring", 0.0)
-    carrier = None if distance is not None else Carrier.of(measured, facing)
-    if carrier is not None:
-        known = None if known is None else carrier.landmarks(known)
-        measured, facing = carrier.copies
-    placed: list[Embedded] = []
+    copies = None if distance is not None else CoarseCopies.of(measured, facing)
+    if copies is not None:
+        constraints = None if constraints is None else copies.landmarks(constraints)
+        measured, facing = copies.copies
+    placed: list[MapCandidate] = []
     for reflected in REFLECTED[orientation]:
-        pair = SurfacePair(measured, facing.reflection if reflected else facing, known, reflected)
-        placed += _embedded(pair, distance, loss, count, report)
-    placed.sort(key=lambda e: e.evidence.loss)
+        pair = SurfacePair(measured, facing.reflection if reflected else facing, constraints, reflected)
+        placed += _candidates(pair, distance, loss, count, report)
+    placed.sort(key=lambda e: e.evidence.neg_log_likelihood)
     report("refining", 0.7)
     if distance is None:
         rivals, tell = contenders(placed), lambda share: report("refining", 0.7 + 0.3 * share)
-        done = side_by_side(lambda e: finished(e, tell if e is rivals[0] else None), rivals)
-        placed = sorted(done, key=lambda e: e.evidence.loss) + [e for e in placed if e not in rivals]
+        done = side_by_side(lambda e: polished(e, tell if e is rivals[0] else None), rivals)
+        placed = sorted(done, key=lambda e: e.evidence.neg_log_likelihood) + [e for e in placed if e not in rivals]
     other = mirrored(placed[0])
     placed += [] if other is None else [other]
 
     settings = {
         "n_samples": min(count, len(measured.regular.usable)),
-        **described(distance, loss),
+        **method_in_words(distance, loss),
         "orientation": orientation,
         "rng": rng,
     }
-    found = answer(placed, {"parameters": settings})
-    found = found if carrier is None else carrier.carried(found)
+    found = correspondence_of(placed, {"parameters": settings})
+    found = found if copies is None else copies.prolonged(found)
     notes = match_notes(measured.original, facing.original, found.status)
     if given is not None:
         found, missed = given.applied(found)
@@ -116,13 +116,13 @@ def match(  # noqa: PLR0913 - the signature is a promise
     return replace(found, meta={**found.meta, "notes": [str(note) for note in notes], "seconds": seconds})
 
 
-def _embedded(
+def _candidates(
     pair: SurfacePair,
     distance: Callable[[Mesh], Distance] | None,
     loss: Loss,
     count: int,
     report: Callable[[str, float], None],
-) -> list[Embedded]:
+) -> list[MapCandidate]:
     """The few maps of a pair that deserve it, their samples placed by the solver."""
     given = None
     if distance is None:
@@ -133,15 +133,15 @@ def _embedded(
         given = (view_of(distances[0], pair.source), view_of(distances[1], pair.target)), distances
         views = [given[0]]
     starts: list[Start] = list(initialization.ALL)
-    if pair.known is not None:
-        enough = len(pair.known.hard) >= ENOUGH or len(pair.known) >= ENOUGH_SOFT
-        starts = [from_landmarks(*pair.known.vertices), *(() if enough else starts)]
+    if pair.landmarks is not None:
+        enough = len(pair.landmarks.hard) >= ENOUGH or len(pair.landmarks) >= ENOUGH_SOFT
+        starts = [from_landmarks(*pair.landmarks.vertices), *(() if enough else starts)]
     report("proposing", 0.2)
     found = proposals(pair, views, starts, lambda share: report("proposing", 0.2 + 0.3 * share))
-    chosen = distinct(found, pair.outlines[0], REFINED, UNLIKELY)
+    chosen = distinct(found, pair.simplified[0], REFINED, UNLIKELY)
     report("embedding", 0.5)
     count = min(count, len(pair.source.regular.usable))
-    place = functools.partial(embed, pair, loss=loss, count=count, given=given)
+    place = functools.partial(make_candidate, pair, loss=loss, count=count, given=given)
     return side_by_side(place, chosen, lambda share: report("embedding", 0.5 + 0.2 * share))
 
 

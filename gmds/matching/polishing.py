@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from geodesics import SurfacePoints
-from gmds.matching.candidates import Embedded, registered
+from gmds.matching.candidates import MapCandidate, registered
 from gmds.matching.evidence import evidence
 from gmds.registration.register import REFINE, SETTLE, Registered, both_ways, settled
 from gmds.spectral.refinement import ROUNDS, upsampled
@@ -19,7 +19,7 @@ GAIN = 0.005  # share of the energy by which each must lower it, where parts gre
 SPECTRAL_GAIN = 0.08  # and by which eigenfunctions must: more where nothing grew, less across species
 
 
-def finished(best: Embedded, progress: Callable[[float], None] | None = None) -> Embedded:
+def polished(best: MapCandidate, progress: Callable[[float], None] | None = None) -> MapCandidate:
     """The map refined further, for as long as the elastic energy of the deformation gets less.
 
     It goes through spectral upsampling in the metric of space, or in the one in which it keeps area, and is registered
@@ -50,14 +50,14 @@ def finished(best: Embedded, progress: Callable[[float], None] | None = None) ->
             break
         now = trial
     tell(0.3)
-    trial = settled(*pair.geometries, now.y, SETTLE, growing=True, partial=True, views=regular)
+    trial = settled(*pair.full, now.y, SETTLE, growing=True, partial=True, views=regular)
     isometric = trial.residuals.cost < (1 - SPECTRAL_GAIN) * now.residuals.cost
     now, views = (trial, regular) if isometric else (now, None)
     for number in range(RETURNS):
         tell(0.4 + 0.6 * number / RETURNS)
-        trial = both_ways(*pair.geometries, now, views)
+        trial = both_ways(*pair.full, now, views)
         if not isometric and trial.residuals.cost >= (1 - GAIN) * now.residuals.cost:
             break
         now = trial
-    weighed = evidence(pair, best.views, now.points, best.evidence.outlines, now.residuals)
+    weighed = evidence(pair, best.views, now.points, best.evidence.both_simplified, now.residuals)
     return replace(best, points=now.points, deformation=now, evidence=weighed)

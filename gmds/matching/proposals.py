@@ -11,9 +11,9 @@ import numpy as np
 from geodesics.arrays import Floats, Integers
 from geodesics.euclidean import euclidean_distances
 from geodesics.threads import side_by_side
-from gmds.initialization.shortlist import hypotheses
+from gmds.initialization.shortlist import shortlist
 from gmds.matching.pair import SurfacePair
-from gmds.registration.deformable import Geometry
+from gmds.registration.deformable import DeformableMesh
 from gmds.registration.register import BEGIN, COARSE, Registered, register, returning, settled
 from gmds.registration.residuals import Residuals
 from gmds.spectral.sample_maps import SampledPair
@@ -30,22 +30,22 @@ APART = 0.05  # root mean square gap, in root areas, below which two maps are on
 
 @dataclass(frozen=True, eq=False)
 class Proposal:
-    """A map of the outline of the source, `registered` to the outline of the target, and the target `back` to it."""
+    """A map of the simplified source, `registered` to the simplified target, and the target `back` to it."""
 
     registered: Registered
     back: Registered
 
     @classmethod
     def of(cls, pair: SurfacePair, places: Floats, *, growing: bool = False) -> Proposal:
-        """The map that sends the vertices of the source's outline to `places` (n, 3); parts may be `growing`."""
-        source, target = pair.outlines
+        """The map that sends the vertices of the simplified source to `places` (n, 3); parts may be `growing`."""
+        source, target = pair.simplified
         there = register(source, target, places, (*BEGIN, *COARSE), growing=growing)
         return cls.completed(pair, there, growing=growing)
 
     @classmethod
     def completed(cls, pair: SurfacePair, there: Registered, *, growing: bool = False) -> Proposal:
-        """The map of the outline of the source `there` on that of the target."""
-        source, target = pair.outlines
+        """The map of the simplified source `there` on that of the target."""
+        source, target = pair.simplified
         begun = returning(source, target, there.y)
         return cls(there, register(target, source, begun, (*BEGIN, *COARSE), growing=growing))
 
@@ -55,12 +55,12 @@ class Proposal:
         return self.registered.residuals, self.back.residuals
 
     @property
-    def loss(self) -> float:
+    def neg_log_likelihood(self) -> float:
         """Minus the log-likelihood of the map up to a constant.
 
         Both ways: half a body can be bent onto a whole one in many ways, the whole on the half in few.
         """
-        return sum(residuals.loss for residuals in self.residuals)
+        return sum(residuals.neg_log_likelihood for residuals in self.residuals)
 
 
 def proposals(
@@ -69,13 +69,13 @@ def proposals(
     starts: Sequence[Start],
     progress: Callable[[float], None] | None = None,
 ) -> list[Proposal]:
-    """Maps from starts in each pair of views, and composed with a reflection, each registered on the outlines.
+    """Maps from starts in each pair of views, and composed with a reflection, each registered on the simplified meshes.
 
     A reflection of either surface makes of a mirrored map the right one, and of a right one the mirrored. Which is
-    which shows when the outline of the source is deformed: a surface can not be turned inside out for little. The third
+    which shows when the simplified source is deformed: a surface can not be turned inside out for little. The third
     that needs the least deformation to begin with is registered to the end, and `RETURNED` of these the way back.
     """
-    source, target = pair.outlines
+    source, target = pair.simplified
     places = [target.mesh.vertices[images] for images in rough_maps(pair, views, starts)]
     first, second, third = (_part(progress, *shares) for shares in ((0.6, 0.75), (0.75, 0.9), (0.9, 1.0)))
     begun = side_by_side(lambda place: register(source, target, place, BEGIN, growing=False), places, first)
@@ -91,10 +91,10 @@ def _part(progress: Callable[[float], None] | None, start: float, end: float) ->
 
 def _cheapest(found: Sequence[Registered]) -> list[Registered]:
     """Those that need the least deformation first."""
-    return sorted(found, key=lambda one: one.residuals.loss)
+    return sorted(found, key=lambda one: one.residuals.neg_log_likelihood)
 
 
-def _told_apart(found: Sequence[Registered], source: Geometry) -> list[Registered]:
+def _told_apart(found: Sequence[Registered], source: DeformableMesh) -> list[Registered]:
     """Those that no one before them nearly repeats."""
     rows = np.stack([(np.sqrt(source.areas)[:, None] * one.y).ravel() for one in found])
     gaps = euclidean_distances(rows, rows)
@@ -106,15 +106,15 @@ def _told_apart(found: Sequence[Registered], source: Geometry) -> list[Registere
 
 
 def rough_maps(pair: SurfacePair, views: Sequence[tuple[View, View]], starts: Sequence[Start]) -> list[Integers]:
-    """Maps (p,) from the vertices of the source's outline to those of the target's, before and after a reflection."""
-    (here, there), (ours, theirs) = pair.outlines, pair.reflections
+    """Maps (p,) from the vertices of the simplified source to those of the target's, before and after a reflection."""
+    (here, there), (ours, theirs) = pair.simplified, pair.reflections
     spot = np.zeros(pair.target.mesh.n_vertices, dtype=np.int64)
     spot[there.origin] = np.arange(len(there.origin))
     sampled = side_by_side(lambda both: SampledPair.of(*both), views)
-    found = [(one, images) for one in sampled for images in hypotheses(one, starts, PROPOSED)]
+    found = [(one, images) for one in sampled for images in shortlist(one, starts, PROPOSED)]
 
     def carried(origin: Integers) -> list[Integers]:
-        return side_by_side(lambda each: spot[each[0].carried(each[1], origin, there.origin)], found)
+        return side_by_side(lambda each: spot[each[0].extended(each[1], origin, there.origin)], found)
 
     straight = carried(here.origin)
     turned = [] if ours is None else carried(ours[here.origin])
@@ -124,14 +124,14 @@ def rough_maps(pair: SurfacePair, views: Sequence[tuple[View, View]], starts: Se
     return straight + turned
 
 
-def distinct(found: Sequence[Proposal], source: Geometry, count: int, within: float = np.inf) -> list[Proposal]:
+def distinct(found: Sequence[Proposal], source: DeformableMesh, count: int, within: float = np.inf) -> list[Proposal]:
     """The `count` best, best first, leaving out those that nearly repeat a better one.
 
     Those whose log-likelihood falls short of the best by more than `within` are left out as well.
     """
     kept: list[Proposal] = []
-    for proposal in sorted(found, key=lambda p: p.loss):
-        likely = not kept or proposal.loss < kept[0].loss + within
+    for proposal in sorted(found, key=lambda p: p.neg_log_likelihood):
+        likely = not kept or proposal.neg_log_likelihood < kept[0].neg_log_likelihood + within
         if likely and len(kept) < count and all(_gap(proposal, other, source.areas) > APART for other in kept):
             kept.append(proposal)
     return kept

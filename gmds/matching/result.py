@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -13,7 +12,7 @@ from geodesics import SurfacePoints
 from geodesics.arrays import Bools, Floats
 from gmds.correspondence import Correspondence
 from gmds.maps.point_map import Candidate, MatchStatus
-from gmds.matching.candidates import Embedded
+from gmds.matching.candidates import MapCandidate
 from gmds.provenance import versions
 from gmds.surface.measured import on_original
 
@@ -29,11 +28,11 @@ REGION = 2e-4  # heat time, in units of the area, that makes a region of vertice
 AROUND = 1e-2  # heat time over which distortion is averaged: errors reach farther than what causes them
 
 
-def answer(placed: Sequence[Embedded], meta: Mapping[str, Any]) -> Correspondence:
+def correspondence_of(placed: Sequence[MapCandidate], meta: Mapping[str, Any]) -> Correspondence:
     """The best map as a `Correspondence` between the original meshes, the others as its candidates."""
     best = placed[0]
     source, target, margin = best.pair.source, best.pair.target, _margin(placed)
-    evidence = {**asdict(best.evidence), "margin": min(margin, ALONE)}
+    evidence = {**best.evidence.as_meta(), "margin": min(margin, ALONE)}
     candidates = tuple(Candidate(_original(e), e.evidence.stress, e.evidence.orientation) for e in placed[1:])
     return Correspondence(
         source=source.original,
@@ -47,19 +46,23 @@ def answer(placed: Sequence[Embedded], meta: Mapping[str, Any]) -> Correspondenc
     )
 
 
-def contenders(placed: Sequence[Embedded]) -> list[Embedded]:
+def contenders(placed: Sequence[MapCandidate]) -> list[MapCandidate]:
     """The most likely map and, if it is nearly as likely, the next: to be refined before one is chosen.
 
     `placed`: the most likely first. Where there is a boundary refinement has no say in which is the more likely.
     """
     best = placed[0]
-    close = [e for e in placed[1:] if e.evidence.closed and e.evidence.loss < best.evidence.loss + CLOSE]
+    close = [
+        e
+        for e in placed[1:]
+        if e.evidence.closed and e.evidence.neg_log_likelihood < best.evidence.neg_log_likelihood + CLOSE
+    ]
     return [best, *close[:1]]
 
 
-def _original(embedded: Embedded) -> SurfacePoints:
+def _original(candidate: MapCandidate) -> SurfacePoints:
     """The points on the original target; vertices that were left out go where the nearest one that was not went."""
-    source, target, points = embedded.pair.source, embedded.pair.target, embedded.points
+    source, target, points = candidate.pair.source, candidate.pair.target, candidate.points
     used = source.regular.usable
     row = np.arange(source.mesh.n_vertices)
     if len(used) < len(row):
@@ -67,18 +70,18 @@ def _original(embedded: Embedded) -> SurfacePoints:
     return on_original(target, points[row])
 
 
-def _valid(embedded: Embedded) -> Bools:
+def _valid(candidate: MapCandidate) -> Bools:
     """False (n,) at vertices of no area, and where the deformed source reaches beyond the boundary of the target.
 
     A vertex does when it is off the target and the boundary is hardly farther from it than the target is; so does a
     region (`REGION`) when most of it does.
     """
-    (source, target), found = embedded.pair.geometries, embedded.deformation
+    (source, target), found = candidate.pair.full, candidate.deformation
     used = source.areas > 0
     edge = np.flatnonzero(target.boundary)
     if len(edge) == 0:
         return np.asarray(used, dtype=np.bool_)
-    gap = np.linalg.norm(found.y - embedded.points.positions, axis=1)
+    gap = np.linalg.norm(found.y - candidate.points.positions, axis=1)
     to_edge = cKDTree(target.mesh.vertices[edge]).query(found.y)[0]
     spacing = np.sqrt(np.median(target.areas[target.usable]))
     beyond = (gap > OFF * spacing) & (to_edge < NEAR * gap)
@@ -86,16 +89,16 @@ def _valid(embedded: Embedded) -> Bools:
     return np.asarray(used & (share < 0.5), dtype=np.bool_)
 
 
-def _distortion(embedded: Embedded) -> Floats:
+def _distortion(candidate: MapCandidate) -> Floats:
     """Root of the elastic energy per area around each vertex (n,): the relative error of lengths; 1 where no map is."""
-    source = embedded.pair.geometries[0]
+    source = candidate.pair.full[0]
     smooth = source.elasticity.smoother(AROUND)
-    result = np.sqrt(np.maximum(smooth(source.areas * embedded.deformation.strain), 0.0))
+    result = np.sqrt(np.maximum(smooth(source.areas * candidate.deformation.strain), 0.0))
     result[source.areas <= 0] = 1.0
     return np.asarray(result, dtype=np.float64)
 
 
-def _status(best: Embedded, margin: float) -> MatchStatus:
+def _status(best: MapCandidate, margin: float) -> MatchStatus:
     """POOR where distances, curvature or lengths are badly kept, AMBIGUOUS where another map is nearly as likely."""
     whole = best.evidence.whole
     if best.evidence.stress > POOR or whole.curvature < BENT or whole.energy > TORN:
@@ -103,12 +106,12 @@ def _status(best: Embedded, margin: float) -> MatchStatus:
     return MatchStatus.AMBIGUOUS if margin < CLOSE else MatchStatus.GOOD
 
 
-def _margin(placed: Sequence[Embedded]) -> float:
+def _margin(placed: Sequence[MapCandidate]) -> float:
     """How much more likely the best map is than any quite different one: the difference of log-likelihood."""
-    others = [other.evidence.loss for other in placed[1:] if _gap(placed[0], other) > DIFFERENT]
-    return min(others, default=np.inf) - placed[0].evidence.loss
+    others = [other.evidence.neg_log_likelihood for other in placed[1:] if _gap(placed[0], other) > DIFFERENT]
+    return min(others, default=np.inf) - placed[0].evidence.neg_log_likelihood
 
 
-def _gap(one: Embedded, other: Embedded) -> float:
+def _gap(one: MapCandidate, other: MapCandidate) -> float:
     """Mean distance in space between the images of two maps, over the square root of the target's area."""
     return float(np.linalg.norm(one.points.positions - other.points.positions, axis=1).mean())

@@ -12,9 +12,9 @@ from geodesics import scale_invariant
 from geodesics.arrays import Floats
 from geodesics.threads import side_by_side
 from gmds import initialization
-from gmds.matching.candidates import Embedded, embed
+from gmds.matching.candidates import MapCandidate, make_candidate
 from gmds.matching.pair import SurfacePair
-from gmds.matching.polishing import finished
+from gmds.matching.polishing import polished
 from gmds.matching.proposals import Proposal, distinct, rough_maps
 from gmds.mds.losses import Loss
 from gmds.registration.register import BEGIN, COARSE, Registered, register, settled
@@ -24,8 +24,9 @@ from gmds.surface.measured import Surface
 TRIED = 12  # rough maps of each kind that are registered to the end, and more where they fit exactly
 MOST = 24  # self-maps of each kind, orientation-reversing or not, that are embedded
 ALWAYS = 3  # of the reversing ones, however unlikely
-LIKELY = 1.2  # log-likelihood, on the outlines, that the others may be short of the best
-CONVINCING = -16.0  # loss below which, on the outlines, more likely ones put nobody to shame: there all fit exactly
+LIKELY = 1.2  # log-likelihood, on the simplified meshes, that the others may be short of the best
+# negative log-likelihood on the simplified meshes below which all maps fit exactly: a more likely one excludes none
+CONVINCING = -16.0
 STILL = (0.05, 0.09)  # mean distance in root areas below which a map is no more than the identity with something
 # small misplaced: a reversing one (the identity inside out), one that keeps orientation
 APART = 0.08  # the same between two symmetries
@@ -44,45 +45,45 @@ SMOOTHING = 2e-3  # of the curvature, in the metric that only self-maps are prop
 class SelfMap:
     """A map of a surface to itself, embedded and registered; an orientation-reversing one goes to the mirror image."""
 
-    embedded: Embedded
+    candidate: MapCandidate
 
     @property
     def positions(self) -> Floats:
         """Where the vertices go (n, 3), on the surface itself."""
-        return _unmirrored(self.embedded.points.positions, self.embedded.pair)
+        return _unmirrored(self.candidate.points.positions, self.candidate.pair)
 
     @property
-    def loss(self) -> float:
+    def neg_log_likelihood(self) -> float:
         """Minus its log-likelihood up to a constant: the deformation of the whole, and how much of it is folded over.
 
-        Unlike in `match` the outlines, whose parts keep their sizes, have had their say when the map was proposed, and
-        nothing is missing from a surface that is its own target. A map that swaps one pair of legs and not the other
-        folds the surface in between.
+        Unlike in `match`, the simplified meshes, whose parts keep their sizes, are weighed only when a map is proposed,
+        and nothing is missing from a surface that is its own target. A map that swaps one pair of legs and not the
+        other folds the surface in between.
         """
-        evidence = self.embedded.evidence
-        return evidence.whole.loss + evidence.fold_loss
+        evidence = self.candidate.evidence
+        return evidence.whole.neg_log_likelihood + evidence.fold_neg_log_likelihood
 
     @property
     def energy(self) -> float:
         """Elastic energy of the deformation."""
-        return self.embedded.evidence.whole.energy
+        return self.candidate.evidence.whole.energy
 
     @property
     def still(self) -> bool:
         """Whether it is hardly more than the identity."""
-        moved = self._mean_distance(self.positions, self.embedded.pair.source.mesh.vertices)
-        return moved <= _still(self.embedded.pair)
+        moved = self._mean_distance(self.positions, self.candidate.pair.source.mesh.vertices)
+        return moved <= _still(self.candidate.pair)
 
     @property
-    def twice(self) -> float:
+    def involution_error(self) -> float:
         """Mean distance in root areas from where the map, done twice, brings points back: 0 for an involution."""
-        again = self.embedded.points.interpolate(self.positions)
-        return self._mean_distance(again, self.embedded.pair.source.mesh.vertices)
+        again = self.candidate.points.interpolate(self.positions)
+        return self._mean_distance(again, self.candidate.pair.source.mesh.vertices)
 
     @property
     def plausible(self) -> bool:
         """Whether it keeps lengths, distances and curvature, and does to orientation what it is meant to."""
-        evidence, reversing = self.embedded.evidence, self.embedded.pair.reflected
+        evidence, reversing = self.candidate.evidence, self.candidate.pair.reflected
         keeps = evidence.stress <= STRESS and evidence.whole.energy <= ENERGY and _curvature(evidence.whole) > CURVATURE
         return keeps and (-evidence.orientation if reversing else evidence.orientation) > SENSE
 
@@ -91,7 +92,7 @@ class SelfMap:
         return self._mean_distance(self.positions, other.positions)
 
     def _mean_distance(self, x: Floats, y: Floats) -> float:
-        return float(self.embedded.pair.geometries[0].areas @ np.linalg.norm(x - y, axis=1))
+        return float(self.candidate.pair.full[0].areas @ np.linalg.norm(x - y, axis=1))
 
 
 def self_maps(
@@ -107,18 +108,18 @@ def self_maps(
     for number, pair in enumerate(pairs):
         progress("proposing", 0.05 + 0.25 * number)
         found = [p for p in proposed(pair) if _moves(p.registered, pair) > _still(pair)]
-        kinds.append(distinct(found, pair.outlines[0], MOST))
-    limit = max(min((p.loss for kind in kinds for p in kind), default=0.0), CONVINCING) + LIKELY
-    chosen = [(pairs[0], p) for i, p in enumerate(kinds[0]) if i < ALWAYS or p.loss < limit]
-    chosen += [(pairs[1], p) for p in kinds[1] if p.loss < limit]
+        kinds.append(distinct(found, pair.simplified[0], MOST))
+    limit = max(min((p.neg_log_likelihood for kind in kinds for p in kind), default=0.0), CONVINCING) + LIKELY
+    chosen = [(pairs[0], p) for i, p in enumerate(kinds[0]) if i < ALWAYS or p.neg_log_likelihood < limit]
+    chosen += [(pairs[1], p) for p in kinds[1] if p.neg_log_likelihood < limit]
     begun: list[SelfMap] = []
     for i, (pair, proposal) in enumerate(chosen):
         progress("embedding", 0.55 + 0.3 * i / len(chosen))
-        begun.append(SelfMap(embed(pair, proposal, loss, min(SAMPLES, len(surface.regular.usable)))))
+        begun.append(SelfMap(make_candidate(pair, proposal, loss, min(SAMPLES, len(surface.regular.usable)))))
     best = likely(begun, DISTINCT)
     for i, found_map in enumerate(best):
         progress("refining", 0.85 + 0.15 * i / len(best))
-        yield SelfMap(finished(found_map.embedded))
+        yield SelfMap(polished(found_map.candidate))
 
 
 def proposed(pair: SurfacePair) -> list[Proposal]:
@@ -128,7 +129,7 @@ def proposed(pair: SurfacePair) -> list[Proposal]:
     less to be smoothed away, and what is left follows parts that grew more closely. Parts may grow from the beginning:
     what would explain it otherwise, on a surface and itself, is only that they stay where they are.
     """
-    source, target = pair.outlines
+    source, target = pair.simplified
     sharp = functools.partial(scale_invariant, smoothing=SMOOTHING)
     views = [
         *zip(pair.source.views, pair.target.views, strict=True),
@@ -137,9 +138,9 @@ def proposed(pair: SurfacePair) -> list[Proposal]:
     places = [target.mesh.vertices[images] for images in rough_maps(pair, views, initialization.ALL)]
     begun = side_by_side(lambda place: register(source, target, place, BEGIN, growing=True), places)
     kept: list[int] = []
-    for i in np.argsort([found.residuals.loss for found in begun], kind="stable"):
+    for i in np.argsort([found.residuals.neg_log_likelihood for found in begun], kind="stable"):
         new = all(source.areas @ np.linalg.norm(begun[i].y - begun[j].y, axis=1) > DISTINCT for j in kept)
-        wanted = len(kept) < TRIED or begun[i].residuals.loss < CONVINCING / 2
+        wanted = len(kept) < TRIED or begun[i].residuals.neg_log_likelihood < CONVINCING / 2
         if new and wanted and _moves(begun[i], pair) > _still(pair):
             kept.append(int(i))
 
@@ -156,7 +157,7 @@ def likely(maps: list[SelfMap], apart: float = APART) -> list[SelfMap]:
     A map that swaps one pair of legs and not the other costs a tear; where it is the best there is, it comes alone.
     """
     kept: list[SelfMap] = []
-    for found in sorted((m for m in maps if not m.still), key=lambda m: m.loss):
+    for found in sorted((m for m in maps if not m.still), key=lambda m: m.neg_log_likelihood):
         allowed = not kept or found.energy <= max(SPARE * kept[0].energy, FREE_ENERGY)
         if allowed and all(found.gap(other) > apart for other in kept):
             kept.append(found)
@@ -168,10 +169,10 @@ def _curvature(residuals: Residuals) -> float:
 
 
 def _moves(found: Registered, pair: SurfacePair) -> float:
-    """Mean distance over which a registration moves the outline."""
-    outline = pair.outlines[0]
-    gaps = np.linalg.norm(_unmirrored(found.y, pair) - outline.mesh.vertices, axis=1)
-    return float(outline.areas @ gaps)
+    """Mean distance over which a registration moves the simplified mesh."""
+    simplified = pair.simplified[0]
+    gaps = np.linalg.norm(_unmirrored(found.y, pair) - simplified.mesh.vertices, axis=1)
+    return float(simplified.areas @ gaps)
 
 
 def _still(pair: SurfacePair) -> float:

@@ -10,8 +10,8 @@ from geodesics import Mesh
 from geodesics.threads import on_one_blas_thread
 from gmds.correspondence import Correspondence
 from gmds.maps.point_map import MatchStatus
-from gmds.matching.large_surfaces import WORKING, Carrier, copied
-from gmds.matching.result import answer
+from gmds.matching.large_surfaces import WORKING, CoarseCopies, copied
+from gmds.matching.result import correspondence_of
 from gmds.matching.self_maps import SelfMap, likely, self_maps
 from gmds.mds.losses import LeastSquares
 from gmds.suggestions import suggest_keywords
@@ -54,18 +54,18 @@ def self_symmetry(
     report("done", 1.0)
     settings = {"parameters": {"n_vertices": n_vertices}, "seconds": seconds}
     told = [_told(m, settings, MatchStatus.GOOD if good else MatchStatus.POOR) for m in good or found[:1]]
-    carrier = Carrier(surface, surface, (copy, copy))
-    return told if copy is surface else [carrier.carried(one) for one in told]
+    copies = CoarseCopies(surface, surface, (copy, copy))
+    return told if copy is surface else [copies.prolonged(one) for one in told]
 
 
 def _told(found: SelfMap, settings: dict[str, object], status: MatchStatus) -> Correspondence:
     """The self-map as a Correspondence."""
-    evidence = found.embedded.evidence
+    evidence = found.candidate.evidence
     figures = {
-        "reversing": found.embedded.pair.reflected,
+        "reversing": found.candidate.pair.reflected,
         "stress": evidence.stress,
         "orientation": evidence.orientation,
         "energy": found.energy,
-        "twice": found.twice,
+        "twice": found.involution_error,
     }
-    return replace(answer([found.embedded], {**settings, "symmetry": figures}), status=status)
+    return replace(correspondence_of([found.candidate], {**settings, "symmetry": figures}), status=status)

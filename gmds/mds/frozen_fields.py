@@ -25,7 +25,7 @@ class FrozenDistance:
 
     mesh: Mesh
     fields: Floats
-    then: Floats
+    reference_distances: Floats
 
     def field(self, points: SurfacePoints) -> Floats:
         """The frozen fields (p, n)."""
@@ -33,7 +33,7 @@ class FrozenDistance:
 
     def pairs(self, points: SurfacePoints) -> FrozenPairs:
         """Distances between the points where they are now."""
-        return FrozenPairs(FieldPairs(points, self.fields), self.then)
+        return FrozenPairs(FieldPairs(points, self.fields), self.reference_distances)
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,12 +41,12 @@ class FrozenPairs:
     """All distances between p points of a `FrozenDistance`."""
 
     now: FieldPairs
-    then: Floats
+    reference_distances: Floats
 
     def distances(self) -> Floats:
         """Symmetric (p, p), never negative."""
         with np.errstate(invalid="ignore"):
-            distances = 2 * self.now.distances() - self.then
+            distances = 2 * self.now.distances() - self.reference_distances
         return np.where(np.isfinite(distances), np.maximum(distances, 0.0), np.inf)
 
     def derivatives(self, distances: Floats) -> Floats:

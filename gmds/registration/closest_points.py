@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 
 from geodesics import SurfacePoints
 from geodesics.arrays import Floats, Integers
-from gmds.registration.deformable import Geometry
+from gmds.registration.deformable import DeformableMesh
 from gmds.surface.view import View
 
 Single = NDArray[np.float32]
@@ -19,7 +19,7 @@ SPECTRAL_WEIGHT = 0.15  # root areas that root mean square eigenfunctions, all t
 
 
 @dataclass(frozen=True, eq=False)
-class Pairing:
+class ClosestPoints:
     """Closest points of a deformed source and a target, both ways: of every source vertex, of every usable target one.
 
     `points` (n,) of the target, with the vertices `near` (n,) them; vertices `back` (q,) of the source.
@@ -36,14 +36,14 @@ class Pairing:
     @classmethod
     def of(
         cls,
-        source: Geometry,
-        target: Geometry,
+        source: DeformableMesh,
+        target: DeformableMesh,
         y: Floats,
         partial: bool,
         views: tuple[View, View] | None = None,
-        before: Pairing | None = None,
-    ) -> Pairing:
-        """The pairing with the source at y (n, 3); after a small move, near the one `before` it.
+        before: ClosestPoints | None = None,
+    ) -> ClosestPoints:
+        """The closest points with the source at y (n, 3); after a small move, near the one `before` it.
 
         With `views`, of the undeformed surfaces, their eigenfunctions count as well: those of the source, as the
         functional map of the closest points carries them over, beside those of the target (as in ZoomOut: Melzi et al.
@@ -67,8 +67,8 @@ class Pairing:
             weight_back = np.where(source.boundary[back], 0.0, weight_back)
         return cls(points, near, back, weight, weight_back)
 
-    def springs(self, source: Geometry, target: Geometry) -> tuple[Floats, Floats]:
-        """Weights (n,) and ends (n, 3) of the springs that pull on vertices: to the target, and those from it."""
+    def point_constraints(self, source: DeformableMesh, target: DeformableMesh) -> tuple[Floats, Floats]:
+        """Weights (n,) and goals (n, 3) of the point constraints on vertices: to the target, and those from it."""
         place, n = target.mesh.vertices[target.usable], source.mesh.n_vertices
         weights = self.weight + np.bincount(self.back, self.weight_back, minlength=n)
         total = self.weight[:, None] * self.points.positions
@@ -77,7 +77,7 @@ class Pairing:
         return weights, total / np.maximum(weights, np.finfo(float).tiny)[:, None]
 
 
-def _spectral_rows(source: Geometry, views: tuple[View, View], images: Integers) -> tuple[Single, Single]:
+def _spectral_rows(source: DeformableMesh, views: tuple[View, View], images: Integers) -> tuple[Single, Single]:
     """Eigenfunctions (n, k), (q, k) of both surfaces as the map to `images` (n,) identifies them, weighted.
 
     In single precision. Column j holds target function j, and what is left of it when it is pulled back by the map and

@@ -21,18 +21,18 @@ from gmds.registration.anchors import Anchors
 from gmds.registration.elasticity import Elasticity
 from gmds.surface.measured import Surface
 
-OUTLINE_FACES = 1600
+SIMPLIFIED_FACES = 1600
 NORMAL_WEIGHT = 0.1  # root areas that a right angle between normals is worth, over root 2
 LOOKS = 4  # from vertex to vertex for the closest point
 STEPS = 2  # from vertex to vertex for the closest vertex
 
 
 @dataclass(frozen=True, eq=False)
-class Geometry:
-    """A mesh of unit area, and for each vertex the vertex `origin` (n,) it stands for on the surface it outlines.
+class DeformableMesh:
+    """A mesh of unit area, and for each vertex the vertex `origin` (n,) it stands for on the surface it was made of.
 
-    `curvature` (n,): squashed mean curvature, which tells the chest from the back. `anchors`: what
-    is known of where its points belong on the surface it is registered to.
+    `curvature` (n,): squashed mean curvature, which tells the chest from the back. `anchors`:
+    where landmarks belong on the surface it is registered to.
     """
 
     mesh: Mesh
@@ -41,12 +41,12 @@ class Geometry:
     anchors: Anchors | None = None
 
     @classmethod
-    def of(cls, surface: Surface) -> Geometry:
+    def of(cls, surface: Surface) -> DeformableMesh:
         """The whole surface."""
         return cls(surface.mesh, np.arange(surface.mesh.n_vertices), surface.squashed_curvature)
 
     @classmethod
-    def outline(cls, surface: Surface, n_faces: int = OUTLINE_FACES) -> Geometry:
+    def simplified(cls, surface: Surface, n_faces: int = SIMPLIFIED_FACES) -> DeformableMesh:
         """The surface with about `n_faces` faces, by collapsing edges; the whole where that can not be done."""
         mesh = decimated(surface.mesh, n_faces)
         if mesh is None:
@@ -138,7 +138,7 @@ class Geometry:
         """Vertices, embedded by `rows` (n, k), closest to `queries` (p, k), near the vertices `guess` (p,)."""
         return nearest_around(queries.astype(np.float32), rows.astype(np.float32), *self._neighbours, guess, STEPS)
 
-    def carried(self, y: Floats, points: Floats) -> Floats:
+    def deformed(self, y: Floats, points: Floats) -> Floats:
         """Where points (p, 3) on the surface go when its vertices go to y (n, 3)."""
         face, weight, _ = closest_on_triangles(points, self.mesh.vertices, self.mesh.faces)
         return np.asarray(np.einsum("pk,pkj->pj", weight, y[self.mesh.faces[face]]), dtype=np.float64)

@@ -77,11 +77,11 @@ class Elasticity:
             self._solvers[time] = self.solver(time, self.areas)
         return self._solvers[time]
 
-    def solver(self, stiff: float, weights: Floats) -> Solver:
-        """Solves (stiff L + diag(weights)) y = b; `stiff` is an area, weights (n,) are areas."""
+    def solver(self, stiffness_weight: float, weights: Floats) -> Solver:
+        """Solves (stiffness_weight L + diag(weights)) y = b; `stiffness_weight` is an area, weights (n,) are areas."""
         order, rest, diagonal = self._ordered
         matrix = rest.copy()
-        matrix.data *= stiff
+        matrix.data *= stiffness_weight
         matrix.data[diagonal] += weights[order] + FAINT
         solve = sla.splu(matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0, **SUPERNODES).solve
 
@@ -92,32 +92,34 @@ class Elasticity:
 
         return unordered
 
-    def turns(self, y: Floats, growing: bool) -> Floats:
+    def local_similarities(self, y: Floats, growing: bool) -> Floats:
         """The matrices s_i R_i (n, 3, 3) of least energy for vertices at y (n, 3); s_i all alike unless parts grow.
 
         Sizes of `growing` parts are ratios of averages over a neighbourhood, shrunk to 1 the less they differ from it:
         a surface is the same size until there is reason to believe otherwise.
         """
-        turns, sums = nearest_rotations(self._products(y))
+        similarities, sums = nearest_rotations(self._products(y))
         if not growing:
-            return np.asarray(turns * (sums.sum() / self._rest[2].sum()), dtype=np.float64)
+            return np.asarray(similarities * (sums.sum() / self._rest[2].sum()), dtype=np.float64)
         smooth = self.smoother(SIZE_TIME)
         size = smooth(sums) / np.maximum(smooth(self._rest[2]), FAINT)
         log = np.log(np.clip(size, 1 / LARGEST, LARGEST))
         size = np.exp(log**3 / (log**2 + DOUBT**2))
-        return np.asarray(turns * size[:, None, None], dtype=np.float64)
+        return np.asarray(similarities * size[:, None, None], dtype=np.float64)
 
-    def force(self, turns: Floats) -> Floats:
+    def right_hand_side(self, similarities: Floats) -> Floats:
         """What L y has to be (n, 3) for the vertices that go best with the matrices (n, 3, 3)."""
         x, (lx, _, _) = self.mesh.vertices, self._rest
-        around = (self._weights @ turns.reshape(-1, 9)).reshape(-1, 3, 3)
-        turned = np.einsum("nab,nb->na", turns, x)
-        return np.asarray(0.5 * (_apply(turns, lx) + _apply(around, x) - self._weights @ turned), dtype=np.float64)
+        around = (self._weights @ similarities.reshape(-1, 9)).reshape(-1, 3, 3)
+        turned = np.einsum("nab,nb->na", similarities, x)
+        return np.asarray(
+            0.5 * (_apply(similarities, lx) + _apply(around, x) - self._weights @ turned), dtype=np.float64
+        )
 
-    def energy(self, y: Floats, turns: Floats) -> Floats:
+    def energy(self, y: Floats, similarities: Floats) -> Floats:
         """The energy (n,) around each vertex."""
-        squares = np.einsum("nab,nab->n", turns, turns) / 3
-        mixed = np.einsum("nba,nab->n", turns, self._products(y))
+        squares = np.einsum("nab,nab->n", similarities, similarities) / 3
+        mixed = np.einsum("nba,nab->n", similarities, self._products(y))
         return np.maximum(self._spread(y) - 2 * mixed + squares * self._rest[2], 0.0)
 
     def _products(self, y: Floats) -> Floats:

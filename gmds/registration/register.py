@@ -10,8 +10,8 @@ from scipy.spatial import cKDTree
 
 from geodesics import SurfacePoints
 from geodesics.arrays import Floats
-from gmds.registration.closest_points import Pairing
-from gmds.registration.deformable import Geometry
+from gmds.registration.closest_points import ClosestPoints
+from gmds.registration.deformable import DeformableMesh
 from gmds.registration.residuals import Residuals
 from gmds.surface.view import View
 
@@ -40,8 +40,8 @@ class Registered:
 
 
 def register(
-    source: Geometry,
-    target: Geometry,
+    source: DeformableMesh,
+    target: DeformableMesh,
     images: Floats,
     stages: Sequence[tuple[float, int]] = (*BEGIN, *COARSE, *FINE),
     *,
@@ -51,20 +51,20 @@ def register(
 ) -> Registered:
     """The source deformed so that its vertices, meant to go to `images` (n, 3), lie on the target.
 
-    In the first stage springs lead to the images given, against the elasticity; the others are those of `settled`.
+    In the first stage vertices are pulled to the images given, against the elasticity; the others are as in `settled`.
     """
     elasticity, areas = source.elasticity, source.areas
     y = elasticity.smoother(GIVEN_TIME)(areas[:, None] * images)
-    stiff, steps = stages[0]
+    stiffness_weight, steps = stages[0]
     for _ in range(steps):
-        pull = elasticity.force(elasticity.turns(y, growing))
-        y = elasticity.smoother(stiff)(stiff * pull + areas[:, None] * images)
+        pull = elasticity.right_hand_side(elasticity.local_similarities(y, growing))
+        y = elasticity.smoother(stiffness_weight)(stiffness_weight * pull + areas[:, None] * images)
     return settled(source, target, y, stages[1:], growing=growing, partial=partial, views=views)
 
 
 def settled(
-    source: Geometry,
-    target: Geometry,
+    source: DeformableMesh,
+    target: DeformableMesh,
     y: Floats,
     stages: Sequence[tuple[float, int]],
     *,
@@ -76,47 +76,50 @@ def settled(
 
     In turn, every vertex of either surface looks for the closest point of the other, in position and normal (as in
     ICP: Besl and McKay 1992; both ways, so that nothing of the target is left out), and the source takes the shape of
-    least elastic energy that is held there by springs. The springs grow ever stronger against the elasticity.
+    least elastic energy that these point constraints
+    allow. They grow ever stronger against the elasticity.
     `growing`: whether the elasticity lets parts change size; `partial`: whether what is closest to a boundary is left
     alone, as what it belongs to may be missing; `views` of both: whether eigenfunctions take part in the search. The
     anchors of the source pull as well.
     """
     elasticity = source.elasticity
-    for stiff, steps in stages:
-        pairing = None
+    for stiffness_weight, steps in stages:
+        closest = None
         for _ in range(steps):
-            pairing = Pairing.of(source, target, y, partial, views, pairing)
-            weights, goals = pairing.springs(source, target)
-            turns = elasticity.turns(y, growing)
+            closest = ClosestPoints.of(source, target, y, partial, views, closest)
+            weights, goals = closest.point_constraints(source, target)
+            similarities = elasticity.local_similarities(y, growing)
             if source.anchors is not None:
-                energy = float(elasticity.energy(y, turns).sum())
-                weights, goals = source.anchors.added((weights, goals), y, stiff, energy)
-            pull = elasticity.force(turns)
-            y = elasticity.solver(stiff, weights)(stiff * pull + weights[:, None] * goals)
+                energy = float(elasticity.energy(y, similarities).sum())
+                weights, goals = source.anchors.added_to((weights, goals), y, stiffness_weight, energy)
+            pull = elasticity.right_hand_side(similarities)
+            y = elasticity.solver(stiffness_weight, weights)(stiffness_weight * pull + weights[:, None] * goals)
     return registered(source, target, y, growing=growing, partial=partial)
 
 
-def registered(source: Geometry, target: Geometry, y: Floats, *, growing: bool, partial: bool = False) -> Registered:
+def registered(
+    source: DeformableMesh, target: DeformableMesh, y: Floats, *, growing: bool, partial: bool = False
+) -> Registered:
     """The source with its vertices at y (n, 3), as it is."""
-    elasticity, pairing = source.elasticity, Pairing.of(source, target, y, partial)
-    points, back = pairing.points, pairing.back
-    energy = elasticity.energy(y, elasticity.turns(y, growing))
+    elasticity, closest = source.elasticity, ClosestPoints.of(source, target, y, partial)
+    points, back = closest.points, closest.back
+    energy = elasticity.energy(y, elasticity.local_similarities(y, growing))
     gap = np.linalg.norm(points.positions - y, axis=1)
     gap_back = np.linalg.norm(target.mesh.vertices[target.usable] - y[back], axis=1)
     there = target.curvature[target.usable]
     residuals = Residuals(
         energy=float(energy.sum()),
-        misfit=_root_mean_square(gap, pairing.weight),
-        misfit_back=_root_mean_square(gap_back, pairing.weight_back),
-        curvature=correlation(source.curvature, points.interpolate(target.curvature), pairing.weight),
-        curvature_back=correlation(there, source.curvature[back], pairing.weight_back),
-        landmarks=0.0 if source.anchors is None else source.anchors.loss(y),
+        misfit=_root_mean_square(gap, closest.weight),
+        misfit_back=_root_mean_square(gap_back, closest.weight_back),
+        curvature=correlation(source.curvature, points.interpolate(target.curvature), closest.weight),
+        curvature_back=correlation(there, source.curvature[back], closest.weight_back),
+        landmarks=0.0 if source.anchors is None else source.anchors.neg_log_likelihood(y),
     )
     return Registered(y, points, energy / np.maximum(source.areas, np.finfo(float).tiny), residuals)
 
 
 def both_ways(
-    source: Geometry, target: Geometry, found: Registered, views: tuple[View, View] | None = None
+    source: DeformableMesh, target: DeformableMesh, found: Registered, views: tuple[View, View] | None = None
 ) -> Registered:
     """A registration improved by the opposite one: the target deformed onto the source starts where this one ended.
 
@@ -132,7 +135,7 @@ def both_ways(
     return register(source, target, (found.y + there) / 2, AGAIN, growing=True, partial=True, views=views)
 
 
-def returning(source: Geometry, target: Geometry, y: Floats) -> Floats:
+def returning(source: DeformableMesh, target: DeformableMesh, y: Floats) -> Floats:
     """Where the target's vertices go (q, 3) on a source that was deformed to y (n, 3): the way back."""
     features = source.moved_features(y)[source.usable]
     return source.mesh.vertices[source.usable[cKDTree(features).query(target.features)[1]]]

@@ -27,7 +27,7 @@ class Residuals:
     landmarks: float = 0.0
 
     @property
-    def loss(self) -> float:
+    def neg_log_likelihood(self) -> float:
         """Minus the log-likelihood up to a constant, with the spread of each residual at its best value.
 
         A Gaussian residual of spread s contributes log s: the root of the elastic energy; the distance from the target

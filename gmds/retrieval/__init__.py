@@ -14,7 +14,7 @@ from gmds.retrieval.descriptors import (
     REGULAR_FREQUENCIES,
     Described,
     Descriptor,
-    described,
+    signatures_of,
 )
 from gmds.retrieval.mending import mended
 from gmds.retrieval.ranking import Ranking, bag_distances, ranking, retrieve
@@ -35,7 +35,6 @@ __all__ = [
     "Vocabulary",
     "bag",
     "bag_distances",
-    "described",
     "learn_vocabulary",
     "learned",
     "mended",
@@ -43,4 +42,5 @@ __all__ = [
     "ranking",
     "retrieval_scores",
     "retrieve",
+    "signatures_of",
 ]

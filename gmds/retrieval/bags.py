@@ -9,7 +9,7 @@ import numpy as np
 
 from geodesics import Mesh, Spectrum
 from geodesics.arrays import Floats
-from gmds.retrieval.descriptors import Described, Descriptor, described
+from gmds.retrieval.descriptors import Described, Descriptor, signatures_of
 from gmds.retrieval.vocabulary import Vocabulary, learn_vocabulary
 
 
@@ -42,7 +42,7 @@ class BagOfFeatures:
 
     def __call__(self, mesh: Mesh) -> Floats:
         """The bag of a mesh. Raises `MeshError` or `EigensolverFailed` where a metric cannot be measured."""
-        return self.of(described(mesh, self.descriptors))
+        return self.of(signatures_of(mesh, self.descriptors))
 
     def of(self, parts: Sequence[Described]) -> Floats:
         """The bag of a mesh from what the descriptors say of it."""

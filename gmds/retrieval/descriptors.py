@@ -44,7 +44,7 @@ class Described:
     mass: Floats
 
 
-def described(mesh: Mesh, descriptors: Sequence[Descriptor], *, mend: bool = True) -> tuple[Described, ...]:
+def signatures_of(mesh: Mesh, descriptors: Sequence[Descriptor], *, mend: bool = True) -> tuple[Described, ...]:
     """Each descriptor of a mesh, which is `mended` first unless that was done; one eigenproblem for each metric.
 
     Raises `MeshError` or `EigensolverFailed` where a metric cannot be measured.

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from geodesics import Mesh
 from geodesics.arrays import Floats, Integers
 from gmds.retrieval.bags import learned
-from gmds.retrieval.descriptors import DEFAULT, described
+from gmds.retrieval.descriptors import DEFAULT, signatures_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +35,7 @@ def retrieve(query: Mesh, collection: Sequence[Mesh], features: Callable[[Mesh],
     if features is not None:
         vectors = [np.asarray(features(mesh), dtype=np.float64) for mesh in meshes]
     else:
-        parts = [described(mesh, DEFAULT) for mesh in meshes]
+        parts = [signatures_of(mesh, DEFAULT) for mesh in meshes]
         bags = learned(DEFAULT, parts)
         vectors = [bags.of(each) for each in parts]
     return ranking(vectors[0], vectors[1:])

@@ -101,11 +101,11 @@ class SampledPair:
         return side_by_side(lambda images: self.refined(images, sizes), maps)
 
     def dense(self, images: Integers) -> Integers:
-        """The sample map carried to all vertices: target vertices (n,)."""
-        return self.carried(images, np.arange(self.source.mesh.n_vertices), self.target.usable)
+        """The sample map extended to all vertices: target vertices (n,)."""
+        return self.extended(images, np.arange(self.source.mesh.n_vertices), self.target.usable)
 
-    def carried(self, images: Integers, vertices: Integers, goals: Integers) -> Integers:
-        """The sample map carried to some source vertices (p,): for each the target vertex it goes to among `goals`."""
+    def extended(self, images: Integers, vertices: Integers, goals: Integers) -> Integers:
+        """The sample map extended to some source vertices (p,): for each the target vertex it goes to among `goals`."""
         k = min(COARSE[-1], self.source_rows.shape[1], self.target_rows.shape[1])
         rows = self.target.functions[goals, :k] @ self.matrix(images, k).T
         return goals[nearest_rows(self.source.functions[vertices, :k], rows)]
@@ -113,13 +113,13 @@ class SampledPair:
     @cached_property
     def source_distances(self) -> Floats:
         """Commute-time distances between the first source samples, a square array."""
-        rows = self.source.embedding[self.source_samples[:JUDGED], :FUNCTIONS]
+        rows = self.source.commute_time_embedding[self.source_samples[:JUDGED], :FUNCTIONS]
         return euclidean_distances(rows, rows)
 
     @cached_property
     def _target_distances(self) -> Floats:
         """The same between all target samples."""
-        rows = self.target.embedding[self.target_samples, :FUNCTIONS]
+        rows = self.target.commute_time_embedding[self.target_samples, :FUNCTIONS]
         return euclidean_distances(rows, rows)
 
     def stress(self, images: Integers) -> float:
@@ -133,7 +133,7 @@ class SampledPair:
 
     def gap(self, images: Integers, others: Integers) -> float:
         """How far two sample maps are apart: mean distance of their images over mean d_S."""
-        e = self.target.embedding[self.target_samples, :FUNCTIONS]
+        e = self.target.commute_time_embedding[self.target_samples, :FUNCTIONS]
         return float(np.linalg.norm(e[images] - e[others], axis=1).mean() / self._mean_distance)
 
 

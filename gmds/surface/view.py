@@ -57,7 +57,7 @@ class View:
         return CommuteTimeDistance(self.first(count).spectrum)
 
     @cached_property
-    def embedding(self) -> Floats:
+    def commute_time_embedding(self) -> Floats:
         """The embedding (n, k - 1) whose Euclidean distances are commute-time distances (3.2)."""
         return self.distance(len(self.eigenvalues)).embedding
 

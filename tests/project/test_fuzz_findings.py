@@ -19,9 +19,9 @@ from gmds.benchmarking.datasets import UnknownDataset, dataset_pairs
 from gmds.cli.settings import read_settings
 from gmds.errors import BadSetting
 from gmds.mds.losses import LeastSquares
-from gmds.provenance import described
+from gmds.provenance import method_in_words
 
-MADE: dict[str, Any] = {"n_samples": 12, "orientation": "any", "rng": 1, **described(None, LeastSquares())}
+MADE: dict[str, Any] = {"n_samples": 12, "orientation": "any", "rng": 1, **method_in_words(None, LeastSquares())}
 ENTRY = {"name": "p", "source": "x/a.off", "target": "scaled/b.off", "truth": "scaled/b.npz"}
 TEXTURED = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"
 

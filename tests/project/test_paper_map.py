@@ -30,7 +30,7 @@ def rows() -> list[tuple[str, str, list[str]]]:
 ENTRIES = [(paper, name) for paper, _, names in rows() for name in names]
 
 
-def described(name: str) -> str:
+def docstring_of(name: str) -> str:
     """The docstring of a dotted name, or the text of a script."""
     if name.endswith(".py"):
         return (ROOT / name).read_text(encoding="utf-8")
@@ -45,7 +45,7 @@ def test_the_map_is_a_table_of_names() -> None:
 
 @pytest.mark.parametrize(("paper", "name"), ENTRIES)
 def test_every_name_cites_what_it_stands_for(paper: str, name: str) -> None:
-    text = " ".join(described(name).split())
+    text = " ".join(docstring_of(name).split())
     missing = [citation for citation in CITATION.findall(paper) if citation.lower() not in text.lower()]
     assert not missing, f"{name} does not mention {missing}"
 

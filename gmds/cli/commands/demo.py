@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from gmds.cli.choices import chosen_distance
-from gmds.cli.commands.match import described
+from gmds.cli.commands.match import map_summary
 from gmds.cli.group import Command
 from gmds.cli.output import emit, json_option, note, progress_bar, seed_option
 from gmds.cli.view_options import write_views
@@ -59,7 +59,7 @@ def command(output: Path, seed: int, as_json: bool) -> None:
     Correspondence.from_points(source, truth).save(output / "truth.npz")
     answer.save(output / "map.npz")
     result = {name: {**_judged(answers[name], truth), "cpu_seconds": seconds[name]} for name in answers}
-    emit({"pair": f"{source.n_vertices} -> {target.n_vertices} vertices", **result, **described(answer)}, as_json)
+    emit({"pair": f"{source.n_vertices} -> {target.n_vertices} vertices", **result, **map_summary(answer)}, as_json)
     chosen = protocol_subset(len(truth))
     errors = errors_of_maps(answer, truth[chosen], chosen)
     title, names = "An animal, and itself in another pose with a bigger head", ("source.ply", "target.ply")

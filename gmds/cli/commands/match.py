@@ -56,12 +56,12 @@ def command(source: Path, target: Path, output: Path, as_json: bool, **options: 
     for line in answer.meta.get("notes", ()):
         note(f"gmds: {line}")
     answer.save(output)
-    emit({"map": str(output), "cpu_seconds": seconds, **described(answer)}, as_json)
+    emit({"map": str(output), "cpu_seconds": seconds, **map_summary(answer)}, as_json)
     shown = {name: options[name] for name in ("report", "picture", "up")}
     write_views(answer, **shown, title=f"{source.name} → {target.name}", names=(source.name, target.name))
 
 
-def described(answer: Any) -> dict[str, Any]:
+def map_summary(answer: Any) -> dict[str, Any]:
     """What can be said of a map without knowing the truth."""
     import numpy as np
 

@@ -71,9 +71,9 @@ def command(query: Path, folder: Path, output: Path | None, words: int, seed: in
 
 def _described(path: Path) -> tuple[Described, ...]:
     from geodesics import read_mesh
-    from gmds.retrieval import DEFAULT, described
+    from gmds.retrieval import DEFAULT, signatures_of
 
-    return described(read_mesh(path), DEFAULT)
+    return signatures_of(read_mesh(path), DEFAULT)
 
 
 def _meshes_in(folder: Path) -> list[Path]:

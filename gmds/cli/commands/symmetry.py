@@ -54,7 +54,7 @@ def command(mesh: Path, output: Path, vertices: int, as_json: bool, **shown: Any
     paths = [output if i == 0 else output.with_stem(f"{output.stem}-{i + 1}") for i in range(len(found))]
     for one, path in zip(found, paths, strict=True):
         one.save(path)
-    told = [described(one, path) for one, path in zip(found, paths, strict=True)]
+    told = [symmetry_summary(one, path) for one, path in zip(found, paths, strict=True)]
     if as_json:
         emit({"symmetries": told, "cpu_seconds": seconds}, as_json)
     for i, figures in enumerate([] if as_json else told):
@@ -65,6 +65,6 @@ def command(mesh: Path, output: Path, vertices: int, as_json: bool, **shown: Any
     write_views(found[0], **shown, title=f"A symmetry of {mesh.name}", names=(mesh.name, f"{mesh.name}, mapped"))
 
 
-def described(one: Any, path: Path) -> dict[str, Any]:
+def symmetry_summary(one: Any, path: Path) -> dict[str, Any]:
     """What can be said of a symmetry without knowing the truth."""
     return {"map": str(path), "status": one.status.name, **one.meta["symmetry"]}

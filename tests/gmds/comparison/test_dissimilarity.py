@@ -14,9 +14,9 @@ from gmds import dissimilarity, distance_profile, least_distortion
 from gmds.comparison import distortion as morphometry
 from gmds.comparison.clustering import families, leaf_order, nearest, neighbour_accuracy, plane_map, tree
 from gmds.comparison.distortion import _one_way, descended, embedding_distortion
-from gmds.comparison.profiles import SHARES, shares, views
+from gmds.comparison.profiles import EQUAL_AREA_SAMPLES, equal_area_samples, views
 from gmds.deformations import similarity
-from gmds.initialization import shortlist as hypotheses
+from gmds.initialization import shortlist
 from gmds.shapes import humanoid, quadruped
 
 
@@ -71,8 +71,8 @@ def test_poses_and_sizes_of_parts_matter_less_than_being_another_thing(profiles:
 
 def test_shares_stand_for_equal_areas(family: dict[str, Mesh]) -> None:
     for view in views(family["animal"]):
-        places, mass = shares(view), view.spectrum.mass
-        assert len(places) == SHARES and (mass[places] > 0).all()
+        places, mass = equal_area_samples(view), view.spectrum.mass
+        assert len(places) == EQUAL_AREA_SAMPLES and (mass[places] > 0).all()
         moment = mass @ view.functions[:, 1:6] ** 2  # 1, as eigenfunctions are orthonormal
         assert np.allclose((view.functions[places, 1:6] ** 2).mean(axis=0), moment, rtol=0.25)
 
@@ -116,7 +116,7 @@ def test_sweeps_lower_the_mean_absolute_stress_to_where_no_single_move_lowers_it
 
 
 def test_both_ways_are_asked_for(family: dict[str, Mesh], monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(hypotheses, "TRIED", 4)  # enough for what is tested here
+    monkeypatch.setattr(shortlist, "TRIED", 4)  # enough for what is tested here
     monkeypatch.setattr(morphometry, "DESCENDED", 1)
     ours, theirs = views(family["sphere"]), views(family["animal"])
     there, back = np.array(_one_way(ours, theirs)), np.array(_one_way(theirs, ours))

@@ -24,8 +24,8 @@ def copied(mesh: Mesh) -> tuple[SampledPair, NDArray[np.int64]]:
     """The mesh with a turned, resized and renumbered copy of it, and the true sample map, as nearest samples."""
     copy, place = permuted(shapes.moved(mesh, 3.7, seed=5), seed=6)
     pair = SampledPair.of(surface(mesh).regular, measure(copy).regular)
-    images = pair.target.embedding[place[pair.source_samples]]
-    samples = pair.target.embedding[pair.target_samples]
+    images = pair.target.commute_time_embedding[place[pair.source_samples]]
+    samples = pair.target.commute_time_embedding[pair.target_samples]
     return pair, np.array([np.linalg.norm(samples - x, axis=1).argmin() for x in images])
 
 

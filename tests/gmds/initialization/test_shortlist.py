@@ -10,7 +10,7 @@ from matched_shapes import animal, bumpy, permuted, surface
 from numpy.typing import NDArray
 
 from gmds.initialization import ALL
-from gmds.initialization.shortlist import DISTINCT, hypotheses
+from gmds.initialization.shortlist import DISTINCT, shortlist
 from gmds.spectral.sample_maps import SampledPair
 from gmds.surface.measured import measure
 
@@ -25,7 +25,7 @@ def pair() -> SampledPair:
 
 @pytest.fixture(scope="module")
 def found(pair: SampledPair) -> list[Index]:
-    return hypotheses(pair, ALL, 6)
+    return shortlist(pair, ALL, 6)
 
 
 def test_the_best_map_of_a_surface_to_itself_is_the_identity_or_the_mirror(
@@ -51,7 +51,7 @@ def test_maps_of_less_stress_come_first(pair: SampledPair, found: list[Index]) -
 
 
 def test_fewer_maps_are_the_first_of_more(pair: SampledPair, found: list[Index]) -> None:
-    fewer = hypotheses(pair, ALL, 2)
+    fewer = shortlist(pair, ALL, 2)
     assert len(fewer) == min(2, len(found))
     assert all(np.array_equal(one, other) for one, other in zip(fewer, found, strict=False))
 
@@ -60,25 +60,25 @@ def test_the_same_start_twice_is_one_map() -> None:
     view = surface(bumpy()).regular
     pair = SampledPair.of(view, view)
     same = np.arange(len(pair.source_samples))
-    assert len(hypotheses(pair, [lambda _: [same, same.copy()], lambda _: [same]], 5)) == 1
+    assert len(shortlist(pair, [lambda _: [same, same.copy()], lambda _: [same]], 5)) == 1
 
 
 def test_a_good_start_comes_before_a_bad_one() -> None:
     view = surface(bumpy()).regular
     pair = SampledPair.of(view, view)
     same = np.arange(len(pair.source_samples))
-    maps = hypotheses(pair, [lambda _: [np.zeros_like(same), np.roll(same, 40)], lambda _: [same]], 5)
+    maps = shortlist(pair, [lambda _: [np.zeros_like(same), np.roll(same, 40)], lambda _: [same]], 5)
     assert np.array_equal(maps[0], same)
 
 
 def test_no_start_is_no_map() -> None:
     view = surface(bumpy()).regular
-    assert hypotheses(SampledPair.of(view, view), [lambda _: []], 5) == []
+    assert shortlist(SampledPair.of(view, view), [lambda _: []], 5) == []
 
 
 def test_maps_follow_a_renumbering() -> None:
     mesh, place = permuted(bumpy())
     ours, theirs = surface(bumpy()).regular, measure(mesh).regular
     pair = SampledPair.of(ours, theirs)
-    best = pair.target_samples[hypotheses(pair, ALL, 1)[0]]
+    best = pair.target_samples[shortlist(pair, ALL, 1)[0]]
     assert (best == place[pair.source_samples]).mean() > 0.9

@@ -11,7 +11,7 @@ import gmds
 from geodesics import Mesh
 from gmds.landmarks.checking import place_landmarks
 from gmds.matching import large_surfaces as coarsening
-from gmds.matching.large_surfaces import Carrier, coarse
+from gmds.matching.large_surfaces import CoarseCopies, coarse
 from gmds.surface.measured import measure
 
 LARGE, WORKING = 900, 500
@@ -63,7 +63,7 @@ def test_a_map_that_reverses_orientation_is_carried_to_the_right_side() -> None:
 def test_small_surfaces_and_given_distances_have_no_copies() -> None:
     small = measure(animal())
     assert coarse(small) is small
-    assert Carrier.of(small, small) is None
+    assert CoarseCopies.of(small, small) is None
     assert "solved_vertices" not in gmds.match(animal(), animal()).meta
 
 
@@ -79,11 +79,11 @@ def test_what_can_not_be_decimated_stays_whole() -> None:
 
 def test_landmarks_are_kept_but_not_twice() -> None:
     surface = measure(whole())
-    carrier = Carrier.of(surface, surface)
-    assert carrier is not None
+    copies = CoarseCopies.of(surface, surface)
+    assert copies is not None
     everything = np.arange(whole().n_vertices)
-    ours, theirs = carrier.landmarks(place_landmarks((everything, everything), whole(), whole()).known).vertices
-    assert len(ours) == carrier.copies[0].mesh.n_vertices
+    ours, theirs = copies.landmarks(place_landmarks((everything, everything), whole(), whole()).constraints).vertices
+    assert len(ours) == copies.copies[0].mesh.n_vertices
     assert len(set(ours.tolist())) == len(ours)
     assert len(set(theirs.tolist())) == len(theirs)
     answer = gmds.match(whole(), moved_whole(), landmarks=[[0, 0], [700, 700], [1400, 1400]])

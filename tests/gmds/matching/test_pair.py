@@ -1,4 +1,4 @@
-"""What is known of two surfaces before any map."""
+"""What is computed of two surfaces before any map."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ def test_without_landmarks_samples_stay_as_they_are() -> None:
 
 
 def test_landmarks_are_added_as_often_as_they_count() -> None:
-    known = place_landmarks(SoftLandmarks([*KNOWN, [11, 12]], [0, 0, 0, 0.1]), bumpy(), bumpy()).known
-    pair = SurfacePair(surface(bumpy()), surface(bumpy()), known)
+    landmarks = place_landmarks(SoftLandmarks([*KNOWN, [11, 12]], [0, 0, 0, 0.1]), bumpy(), bumpy()).constraints
+    pair = SurfacePair(surface(bumpy()), surface(bumpy()), landmarks)
     ours, theirs = pair.with_landmarks(np.array([1, 2]), SurfacePoints.at_vertices(pair.target.mesh, [4, 5]))
     assert len(ours) == len(theirs) == 2 + 3 * WEIGHT
     assert ours[:2].tolist() == [1, 2] and theirs[:2].nearest_vertices().tolist() == [4, 5]
@@ -63,14 +63,14 @@ def test_where_the_source_has_no_reflection_that_of_the_target_is_sought(monkeyp
 
 def test_both_surfaces_are_seen_whole_and_in_outline() -> None:
     pair = SurfacePair(measure(shapes.bumpy_sphere(4)), surface(bumpy()))
-    assert [g.mesh for g in pair.geometries] == [pair.source.mesh, pair.target.mesh]
-    assert pair.outlines[0].mesh.n_faces < 0.5 * pair.source.mesh.n_faces
-    assert pair.outlines[1].mesh is pair.target.mesh
-    assert pair.outlines is pair.outlines and pair.geometries is pair.geometries
+    assert [g.mesh for g in pair.full] == [pair.source.mesh, pair.target.mesh]
+    assert pair.simplified[0].mesh.n_faces < 0.5 * pair.source.mesh.n_faces
+    assert pair.simplified[1].mesh is pair.target.mesh
+    assert pair.simplified is pair.simplified and pair.full is pair.full
 
 
 def test_the_mirror_image_of_a_mirror_image_is_the_surface() -> None:
     plain, twice = surface(bumpy()), measure(reflected(bumpy(), axis=0), reflected=True)
     assert np.allclose(twice.mesh.vertices, plain.mesh.vertices)
-    normals = [SurfacePair(one, one).geometries[0].normals for one in (plain, twice)]
+    normals = [SurfacePair(one, one).full[0].normals for one in (plain, twice)]
     assert np.allclose(*normals)

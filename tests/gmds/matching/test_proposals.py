@@ -15,7 +15,7 @@ from geodesics import SurfacePoints
 from gmds import initialization
 from gmds.matching.pair import SurfacePair
 from gmds.matching.proposals import APART, PROPOSED, Proposal, Start, distinct, proposals, rough_maps
-from gmds.registration.deformable import Geometry
+from gmds.registration.deformable import DeformableMesh
 from gmds.registration.register import registered
 from gmds.spectral.sample_maps import SampledPair
 from gmds.surface.measured import measure
@@ -35,7 +35,9 @@ def turned(name: str) -> tuple[SurfacePair, Index]:
 
 def found(pair: SurfacePair, starts: list[Start] = ALL) -> list[Proposal]:
     """All proposals in the metric of space, best first."""
-    return sorted(proposals(pair, [(pair.source.regular, pair.target.regular)], starts), key=lambda p: p.loss)
+    return sorted(
+        proposals(pair, [(pair.source.regular, pair.target.regular)], starts), key=lambda p: p.neg_log_likelihood
+    )
 
 
 @functools.cache
@@ -44,8 +46,8 @@ def of_copy(name: str) -> list[Proposal]:
 
 
 def off(pair: SurfacePair, proposal: Proposal, place: Index) -> float:
-    """Mean distance in root areas from the truth, on the outline."""
-    truth = pair.target.mesh.vertices[place[pair.outlines[0].origin]]
+    """Mean distance in root areas from the truth, on the simplified mesh."""
+    truth = pair.target.mesh.vertices[place[pair.simplified[0].origin]]
     return float(np.linalg.norm(proposal.registered.y - truth, axis=1).mean())
 
 
@@ -59,26 +61,29 @@ def samples_of(pair: SampledPair, images: Index) -> Index:
 @pytest.mark.parametrize(("name", "least"), [("bumpy", 2e-3), ("animal", 0.02), ("outlined", 0.03)])
 def test_the_best_map_to_a_turned_copy_is_the_right_one_by_far(name: str, least: float) -> None:
     pair, place = turned(name)
-    first, second, *_ = distinct(of_copy(name), pair.outlines[0], 2)
+    first, second, *_ = distinct(of_copy(name), pair.simplified[0], 2)
     assert off(pair, first, place) < least
     assert off(pair, second, place) > 0.04
-    assert first.loss < second.loss - 1
+    assert first.neg_log_likelihood < second.neg_log_likelihood - 1
 
 
 def test_proposals_are_maps_of_the_outlines() -> None:
     pair, _ = turned("outlined")
-    ours, theirs = pair.outlines
+    ours, theirs = pair.simplified
     assert ours.mesh.n_faces < pair.source.mesh.n_faces
     for proposal in of_copy("outlined"):
         assert proposal.registered.y.shape == ours.mesh.vertices.shape
         assert proposal.registered.points.mesh is theirs.mesh
-        assert proposal.loss == proposal.registered.residuals.loss + proposal.back.residuals.loss
+        assert (
+            proposal.neg_log_likelihood
+            == proposal.registered.residuals.neg_log_likelihood + proposal.back.residuals.neg_log_likelihood
+        )
 
 
 @pytest.mark.parametrize("name", ["bumpy", "outlined"])
 def test_rough_maps_lead_from_outline_to_outline_and_every_second_is_reflected(name: str) -> None:
     pair, place = turned(name)
-    ours, theirs = pair.outlines
+    ours, theirs = pair.simplified
     maps = rough_maps(pair, [(pair.source.regular, pair.target.regular)], ALL)
     doubled = 1 if all(flip is None for flip in pair.reflections) else 2
     assert 1 <= len(maps) <= doubled * PROPOSED and len(maps) % doubled == 0
@@ -119,29 +124,29 @@ def test_more_metrics_make_more_maps() -> None:
 
 
 @pytest.fixture(scope="module")
-def synthetic() -> tuple[Geometry, list[Proposal]]:
+def synthetic() -> tuple[DeformableMesh, list[Proposal]]:
     """Shifted copies of one map, the farther the worse: 0, 0.5, ... 4 times what keeps two maps apart."""
-    geometry = Geometry.of(surface(bumpy()))
-    base = registered(geometry, geometry, geometry.mesh.vertices, growing=False)
+    deformable = DeformableMesh.of(surface(bumpy()))
+    base = registered(deformable, deformable, deformable.mesh.vertices, growing=False)
     made = []
     for k in range(9):
         y = base.y + np.array([0.5 * k * APART * 1.001, 0, 0])
-        points = SurfacePoints.closest(geometry.mesh, y)
+        points = SurfacePoints.closest(deformable.mesh, y)
         worse = replace(base, y=y, points=points, residuals=replace(base.residuals, misfit_back=0.01 + k))
         made.append(Proposal(worse, base))
-    return geometry, made
+    return deformable, made
 
 
-def test_distinct_keeps_the_best_of_those_that_are_alike(synthetic: tuple[Geometry, list[Proposal]]) -> None:
-    geometry, made = synthetic
+def test_distinct_keeps_the_best_of_those_that_are_alike(synthetic: tuple[DeformableMesh, list[Proposal]]) -> None:
+    deformable, made = synthetic
     shuffled = [made[i] for i in np.random.default_rng(0).permutation(len(made))]
     for count in (1, 3, 20):
-        assert distinct(shuffled, geometry, count) == made[::2][:count]
-    assert distinct([], geometry, 3) == []
-    assert distinct([made[1], made[0]], geometry, 3) == [made[0]]
+        assert distinct(shuffled, deformable, count) == made[::2][:count]
+    assert distinct([], deformable, 3) == []
+    assert distinct([made[1], made[0]], deformable, 3) == [made[0]]
 
 
 def test_proposals_do_not_depend_on_size_and_place() -> None:
     mesh = bumpy()
     one, other = (found(SurfacePair(surface(mesh), measure(shapes.moved(mesh, s, seed=2))))[:3] for s in (1e-6, 1e6))
-    assert [p.loss for p in one[1:]] == pytest.approx([p.loss for p in other[1:]], abs=1e-6)
+    assert [p.neg_log_likelihood for p in one[1:]] == pytest.approx([p.neg_log_likelihood for p in other[1:]], abs=1e-6)

@@ -19,7 +19,7 @@ from gmds.landmarks.checking import place_landmarks
 from gmds.maps.images import image
 from gmds.matching.pair import SurfacePair
 from gmds.registration.anchors import HARD, Anchors
-from gmds.registration.deformable import Geometry
+from gmds.registration.deformable import DeformableMesh
 from gmds.registration.register import register
 from gmds.shapes import humanoid, truth
 
@@ -38,13 +38,15 @@ def anchors(tolerance: float, count: int = 4) -> tuple[Anchors, Array]:
 @pytest.mark.parametrize("tolerance", [0.02, 0.1, 1.0])
 def test_soft_springs_pull_as_the_likelihood_falls(tolerance: float) -> None:
     marks, y = anchors(tolerance)
-    energy, stiff, n = 1e-3, 1e-3, len(y)
-    weights, ends = marks.added((np.zeros(n), np.zeros((n, 3))), y, stiff, energy)
+    energy, stiffness_weight, n = 1e-3, 1e-3, len(y)
+    weights, ends = marks.added_to((np.zeros(n), np.zeros((n, 3))), y, stiffness_weight, energy)
     direction, step = RNG.standard_normal(y.shape), 1e-6
-    slope = (marks.loss(y + step * direction) - marks.loss(y - step * direction)) / (2 * step)
-    # of log sqrt(E) the slope is that of E / (2 E); the system of the registration has stiff times that of E / 4
+    slope = (marks.neg_log_likelihood(y + step * direction) - marks.neg_log_likelihood(y - step * direction)) / (
+        2 * step
+    )
+    # of log sqrt(E) the slope is that of E / (2 E); the system of the registration has that of E / 4, weighted
     pull = weights[:, None] * (y - ends)
-    assert 2 * (pull * direction).sum() / (stiff * energy) == pytest.approx(slope, rel=1e-5)
+    assert 2 * (pull * direction).sum() / (stiffness_weight * energy) == pytest.approx(slope, rel=1e-5)
 
 
 def test_a_landmark_missed_by_many_tolerances_pulls_ever_less() -> None:
@@ -53,7 +55,7 @@ def test_a_landmark_missed_by_many_tolerances_pulls_ever_less() -> None:
     pulls = []
     for times in (1, 5, 25):
         end = Anchors(marks.corners, marks.weights, marks.positions(y) + times * 0.02 * away, marks.tolerance)
-        weights, ends = end.added((np.zeros(len(y)), np.zeros_like(y)), y, 1e-3, 1e-3)
+        weights, ends = end.added_to((np.zeros(len(y)), np.zeros_like(y)), y, 1e-3, 1e-3)
         pulls.append(np.linalg.norm(weights[:, None] * (ends - y)))
     far = [times * np.linalg.norm(away) for times in (1, 5, 25)]
     assert pulls == pytest.approx([p * pulls[0] for p in [f / (1 + f**2) * (1 + far[0] ** 2) / far[0] for f in far]])
@@ -62,7 +64,7 @@ def test_a_landmark_missed_by_many_tolerances_pulls_ever_less() -> None:
 def test_springs_that_were_there_stay_and_hard_ones_rule() -> None:
     marks, y = anchors(0.0, 2)
     before = RNG.random(len(y)) * 1e-3, RNG.standard_normal(y.shape)
-    weights, ends = marks.added(before, y, 1e-3, 0.5)
+    weights, ends = marks.added_to(before, y, 1e-3, 0.5)
     free = np.setdiff1d(np.arange(len(y)), marks.corners)
     assert np.array_equal(weights[free], before[0][free]) and np.allclose(ends[free], before[1][free])
     assert weights.sum() - before[0].sum() == pytest.approx(2 * 1e-3 * HARD)
@@ -72,14 +74,14 @@ def test_springs_that_were_there_stay_and_hard_ones_rule() -> None:
 def test_registration_brings_hard_landmarks_home() -> None:
     mine = surface(bumpy())
     on, to = (SurfacePoints(bumpy(), faces, [[0.5, 0.3, 0.2]] * 3) for faces in ([5, 100, 250], [8, 103, 260]))
-    pair = SurfacePair(mine, mine, place_landmarks((on, to), bumpy(), bumpy()).known)
-    source, target = pair.geometries
+    pair = SurfacePair(mine, mine, place_landmarks((on, to), bumpy(), bumpy()).constraints)
+    source, target = pair.full
     assert source.anchors is not None and target.anchors is not None
     found = register(source, target, mine.mesh.vertices, growing=True)
     assert np.linalg.norm(source.anchors.positions(found.y) - source.anchors.ends, axis=1).max() < 2e-3
     back = register(target, source, mine.mesh.vertices, growing=True)
     assert np.linalg.norm(target.anchors.positions(back.y) - target.anchors.ends, axis=1).max() < 2e-3
-    free = register(Geometry.of(mine), Geometry.of(mine), mine.mesh.vertices, growing=True)
+    free = register(DeformableMesh.of(mine), DeformableMesh.of(mine), mine.mesh.vertices, growing=True)
     assert free.residuals.landmarks == 0 and free.residuals.cost == free.residuals.energy < found.residuals.cost
 
 

@@ -10,7 +10,7 @@ import pytest
 from matched_shapes import animal, bumpy
 
 from geodesics import Mesh
-from gmds.registration.deformable import Geometry
+from gmds.registration.deformable import DeformableMesh
 from gmds.registration.register import register, registered
 from gmds.surface.measured import measure
 
@@ -23,17 +23,17 @@ SURFACES: dict[str, Callable[[], Mesh]] = {
 
 
 @pytest.fixture(params=SURFACES)
-def pair(request: pytest.FixtureRequest) -> tuple[Geometry, Geometry]:
+def pair(request: pytest.FixtureRequest) -> tuple[DeformableMesh, DeformableMesh]:
     """A surface and the same turned."""
     mesh = SURFACES[request.param]()
-    return Geometry.of(measure(mesh)), Geometry.of(measure(shapes.moved(mesh, 3.0)))
+    return DeformableMesh.of(measure(mesh)), DeformableMesh.of(measure(shapes.moved(mesh, 3.0)))
 
 
-def test_features_are_the_same_however_they_are_told(pair: tuple[Geometry, Geometry]) -> None:
+def test_features_are_the_same_however_they_are_told(pair: tuple[DeformableMesh, DeformableMesh]) -> None:
     assert np.allclose(pair[0].features, pair[0].moved_features(pair[0].mesh.vertices), atol=1e-12)
 
 
-def test_a_congruence_leaves_nothing(pair: tuple[Geometry, Geometry]) -> None:
+def test_a_congruence_leaves_nothing(pair: tuple[DeformableMesh, DeformableMesh]) -> None:
     source, target = pair
     truth, used = target.mesh.vertices, source.usable
     found = registered(source, target, truth, growing=True)
@@ -45,7 +45,7 @@ def test_a_congruence_leaves_nothing(pair: tuple[Geometry, Geometry]) -> None:
 
 
 @pytest.mark.parametrize("growing", [True, False])
-def test_a_congruence_stays_when_it_is_registered(pair: tuple[Geometry, Geometry], growing: bool) -> None:
+def test_a_congruence_stays_when_it_is_registered(pair: tuple[DeformableMesh, DeformableMesh], growing: bool) -> None:
     source, target = pair
     truth, used = target.mesh.vertices, source.usable
     found = register(source, target, truth, growing=growing)

@@ -47,15 +47,15 @@ def edges(elasticity: Elasticity) -> list[tuple[int, int, float]]:
     return [(i, j, -w) for i, j, w in zip(matrix.row, matrix.col, matrix.data, strict=True) if i != j and w < 0]
 
 
-def naive_energy(elasticity: Elasticity, y: Array, turns: Array) -> Array:
+def naive_energy(elasticity: Elasticity, y: Array, similarities: Array) -> Array:
     x, found = elasticity.mesh.vertices, np.zeros(len(y))
     for i, j, w in edges(elasticity):
-        found[i] += w * ((y[i] - y[j] - turns[i] @ (x[i] - x[j])) ** 2).sum()
+        found[i] += w * ((y[i] - y[j] - similarities[i] @ (x[i] - x[j])) ** 2).sum()
     return found
 
 
 def objective(elasticity: Elasticity, y: Array, growing: bool = False) -> float:
-    return float(elasticity.energy(y, elasticity.turns(y, growing)).sum())
+    return float(elasticity.energy(y, elasticity.local_similarities(y, growing)).sum())
 
 
 def shrunk(scale: float) -> float:
@@ -69,10 +69,10 @@ def shrunk(scale: float) -> float:
 def test_rigid_motions_cost_nothing(name: str, growing: bool) -> None:
     elasticity = elastic(name)
     y = elasticity.mesh.vertices @ TURN.T + SHIFT
-    turns = elasticity.turns(y, growing)
-    assert elasticity.energy(y, turns).sum() < ROUNDING
+    similarities = elasticity.local_similarities(y, growing)
+    assert elasticity.energy(y, similarities).sum() < ROUNDING
     if name in ("closed", "isolated vertices"):  # a corner of a flat surface may have a single weight
-        assert np.allclose(turns[np.unique(elasticity.mesh.faces)], TURN, atol=1e-9)
+        assert np.allclose(similarities[np.unique(elasticity.mesh.faces)], TURN, atol=1e-9)
 
 
 @pytest.mark.parametrize("name", MESHES)
@@ -80,7 +80,9 @@ def test_rigid_motions_cost_nothing(name: str, growing: bool) -> None:
 def test_similarities_cost_nothing_unless_parts_grow_and_then_only_the_doubt(name: str, scale: float) -> None:
     elasticity = elastic(name)
     y = scale * elasticity.mesh.vertices @ TURN.T + SHIFT
-    rest = elasticity.energy(0 * y, elasticity.turns(elasticity.mesh.vertices, False)).sum()  # sum w |x_i - x_j|^2
+    rest = elasticity.energy(
+        0 * y, elasticity.local_similarities(elasticity.mesh.vertices, False)
+    ).sum()  # sum w |x_i - x_j|^2
     assert rest == pytest.approx(4, rel=0.1)  # twice the Dirichlet energy of the identity, which is twice the area
     assert objective(elasticity, y) < ROUNDING * (1 + scale**2)
     assert objective(elasticity, y, True) == pytest.approx(rest * (scale - shrunk(scale)) ** 2, rel=1e-6, abs=1e-9)
@@ -99,39 +101,42 @@ def test_a_flat_stretch_costs_its_dirichlet_energy(a: float, b: float) -> None:
 def test_the_energy_agrees_with_its_naive_twin(name: str, growing: bool) -> None:
     elasticity = elastic(name)
     y = shaken(elasticity)
-    turns = elasticity.turns(y, growing)
-    assert np.allclose(elasticity.energy(y, turns), naive_energy(elasticity, y, turns), atol=1e-12)
+    similarities = elasticity.local_similarities(y, growing)
+    assert np.allclose(elasticity.energy(y, similarities), naive_energy(elasticity, y, similarities), atol=1e-12)
 
 
 @pytest.mark.parametrize("name", MESHES)
-def test_the_force_agrees_with_its_naive_twin(name: str) -> None:
+def test_the_right_hand_side_agrees_with_its_naive_twin(name: str) -> None:
     elasticity = elastic(name)
-    x, turns = elasticity.mesh.vertices, np.random.default_rng(1).standard_normal((elasticity.mesh.n_vertices, 3, 3))
+    x, similarities = (
+        elasticity.mesh.vertices,
+        np.random.default_rng(1).standard_normal((elasticity.mesh.n_vertices, 3, 3)),
+    )
     expected = np.zeros_like(x)
     for i, j, w in edges(elasticity):
-        expected[i] += 0.5 * w * (turns[i] + turns[j]) @ (x[i] - x[j])
-    assert np.allclose(elasticity.force(turns), expected, atol=1e-12)
+        expected[i] += 0.5 * w * (similarities[i] + similarities[j]) @ (x[i] - x[j])
+    assert np.allclose(elasticity.right_hand_side(similarities), expected, atol=1e-12)
 
 
 @pytest.mark.parametrize("name", MESHES)
 def test_turns_are_the_best_rotations_and_one_size(name: str) -> None:
     elasticity = elastic(name)
     y = shaken(elasticity)
-    turns = elasticity.turns(y, False)
-    least = elasticity.energy(y, turns)
-    size = np.cbrt(np.linalg.det(turns))
+    similarities = elasticity.local_similarities(y, False)
+    least = elasticity.energy(y, similarities)
+    size = np.cbrt(np.linalg.det(similarities))
     assert np.allclose(size, size[0])
-    for turned in (turns @ Rotation.from_rotvec(0.1 * axis).as_matrix() for axis in (*np.eye(3), *-np.eye(3))):
+    for turned in (similarities @ Rotation.from_rotvec(0.1 * axis).as_matrix() for axis in (*np.eye(3), *-np.eye(3))):
         assert (elasticity.energy(y, turned) >= least - 1e-14).all()
     for factor in (0.99, 1.01):
-        assert elasticity.energy(y, factor * turns).sum() > least.sum()
+        assert elasticity.energy(y, factor * similarities).sum() > least.sum()
 
 
 @pytest.mark.parametrize("name", MESHES)
 def test_the_force_is_what_is_missing_in_the_gradient(name: str) -> None:
     elasticity = elastic(name)
     y, step = shaken(elasticity), 1e-5
-    gradient = 4 * (elasticity.stiffness @ y - elasticity.force(elasticity.turns(y, False)))
+    gradient = 4 * (elasticity.stiffness @ y - elasticity.right_hand_side(elasticity.local_similarities(y, False)))
     for seed in range(3):
         way = np.random.default_rng(seed).standard_normal(y.shape)
         slope = (objective(elasticity, y + step * way) - objective(elasticity, y - step * way)) / (2 * step)
@@ -139,17 +144,20 @@ def test_the_force_is_what_is_missing_in_the_gradient(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", MESHES)
-@pytest.mark.parametrize("stiff", [1e-1, 1e-3])
-def test_every_step_lessens_energy_and_springs_taken_together(name: str, stiff: float) -> None:
+@pytest.mark.parametrize("stiffness_weight", [1e-1, 1e-3])
+def test_every_step_lessens_energy_and_point_constraints_taken_together(name: str, stiffness_weight: float) -> None:
     elasticity, weights = elastic(name), elastic(name).areas
     y = goals = shaken(elasticity, 0.05)
-    solve = elasticity.solver(stiff, weights)
+    solve = elasticity.solver(stiffness_weight, weights)
     values = []
     for _ in range(8):
-        y = solve(stiff * elasticity.force(elasticity.turns(y, False)) + weights[:, None] * goals)
-        values.append(0.5 * stiff * objective(elasticity, y) + (weights @ (y - goals) ** 2).sum())
+        y = solve(
+            stiffness_weight * elasticity.right_hand_side(elasticity.local_similarities(y, False))
+            + weights[:, None] * goals
+        )
+        values.append(0.5 * stiffness_weight * objective(elasticity, y) + (weights @ (y - goals) ** 2).sum())
     assert (np.diff(values) < 1e-12).all()
-    assert values[-1] < values[0] < 0.5 * stiff * objective(elasticity, goals)
+    assert values[-1] < values[0] < 0.5 * stiffness_weight * objective(elasticity, goals)
 
 
 @pytest.mark.parametrize("name", MESHES)
@@ -180,7 +188,7 @@ def test_a_part_that_grew_costs_less_where_parts_may_grow() -> None:
     height = x[:, 2:] / np.ptp(x[:, 2])
     y = x * (1 + 1 / (1 + np.exp(-20 * height)))
     assert objective(elasticity, y, True) < 0.5 * objective(elasticity, y)
-    size = np.cbrt(np.linalg.det(elasticity.turns(y, True)))
+    size = np.cbrt(np.linalg.det(elasticity.local_similarities(y, True)))
     assert size[height[:, 0] > 0.3].min() > 1.4 and size[height[:, 0] < -0.3].max() < 1.2
 
 
@@ -191,9 +199,9 @@ def test_vertices_on_no_face_are_left_out() -> None:
     y = shaken(elasticity)
     y[lost] = 1e3
     for growing in (True, False):
-        turns = elasticity.turns(y, growing)
-        assert np.isfinite(turns).all()
-        assert (elasticity.energy(y, turns)[lost] == 0).all()
-        assert (elasticity.force(turns)[lost] == 0).all()
+        similarities = elasticity.local_similarities(y, growing)
+        assert np.isfinite(similarities).all()
+        assert (elasticity.energy(y, similarities)[lost] == 0).all()
+        assert (elasticity.right_hand_side(similarities)[lost] == 0).all()
     placed = elasticity.solver(1e-3, elasticity.areas)(elasticity.areas[:, None] * y)
     assert np.abs(placed).max() < 2

@@ -16,13 +16,13 @@ import gmds
 from geodesics import Mesh
 from geodesics.closest import closest_on_triangles
 from gmds.deformations import bending, local_scaling
-from gmds.registration.deformable import Geometry
+from gmds.registration.deformable import DeformableMesh
 from gmds.registration.register import FINE, correlation, register
 from gmds.registration.residuals import LEAST, Residuals
 from gmds.surface.measured import measure
 
 Array = NDArray[np.float64]
-Pair = tuple[Geometry, Geometry, Array]
+Pair = tuple[DeformableMesh, DeformableMesh, Array]
 FAIR = Residuals(energy=0.3, misfit=0.01, misfit_back=0.02, curvature=0.8, curvature_back=0.7)
 
 
@@ -32,7 +32,11 @@ def posed() -> Pair:
     source, target = animal(), animal("walk", 1)
     place, truth = surface(target).mesh.vertices, gmds.shapes.truth(source, target)
     corners = place[target.faces[truth.face]]
-    return Geometry.of(surface(source)), Geometry.of(surface(target)), (truth.barycentric[:, :, None] * corners).sum(1)
+    return (
+        DeformableMesh.of(surface(source)),
+        DeformableMesh.of(surface(target)),
+        (truth.barycentric[:, :, None] * corners).sum(1),
+    )
 
 
 @functools.cache
@@ -46,17 +50,17 @@ def deformed(name: str) -> Pair:
         "bent": lambda: (animal(), bending(animal(), 60.0)[0]),
         "grown": lambda: (whole, local_scaling(whole, np.log(2.0) / (1 + np.exp(-3 * (z - np.median(z)))))[0]),
     }[name]()
-    geometry = Geometry.of(measure(target))
-    return Geometry.of(measure(source)), geometry, geometry.mesh.vertices
+    deformable = DeformableMesh.of(measure(target))
+    return DeformableMesh.of(measure(source)), deformable, deformable.mesh.vertices
 
 
-def cut(geometry: Geometry, axis: int, sign: int) -> tuple[Geometry, NDArray[np.bool_]]:
+def cut(deformable: DeformableMesh, axis: int, sign: int) -> tuple[DeformableMesh, NDArray[np.bool_]]:
     """Half of a surface, the boundary rough, and which vertices are on it."""
-    z = sign * geometry.mesh.vertices[:, axis]
+    z = sign * deformable.mesh.vertices[:, axis]
     kept = z < np.median(z)
-    used, faces = np.unique(geometry.mesh.faces[kept[geometry.mesh.faces].all(axis=1)], return_inverse=True)
-    half = Mesh(geometry.mesh.vertices[used], faces.reshape(-1, 3))
-    return Geometry(half, used, geometry.curvature[used]), kept
+    used, faces = np.unique(deformable.mesh.faces[kept[deformable.mesh.faces].all(axis=1)], return_inverse=True)
+    half = Mesh(deformable.mesh.vertices[used], faces.reshape(-1, 3))
+    return DeformableMesh(half, used, deformable.curvature[used]), kept
 
 
 def noisy(truth: Array, amount: float) -> Array:
@@ -106,7 +110,7 @@ def test_the_mirrored_map_costs_more_than_the_right_one() -> None:
     wrong = register(source, target, (flipped.barycentric[:, :, None] * corners).sum(1), growing=True)
     right = register(source, target, posed()[2], growing=True)
     assert wrong.residuals.energy > 4 * right.residuals.energy
-    assert wrong.residuals.loss > right.residuals.loss + 1
+    assert wrong.residuals.neg_log_likelihood > right.residuals.neg_log_likelihood + 1
 
 
 @pytest.mark.parametrize("axis", [0, 1, 2])
@@ -146,12 +150,12 @@ def test_a_softer_surface_fits_better() -> None:
 
 @pytest.mark.parametrize("start", ["one point", "far away"])
 def test_a_hopeless_map_is_finite(start: str) -> None:
-    source, target = Geometry.of(surface(bumpy())), Geometry.of(measure(shapes.torus(20, 10)))
+    source, target = DeformableMesh.of(surface(bumpy())), DeformableMesh.of(measure(shapes.torus(20, 10)))
     images = np.zeros_like(source.mesh.vertices) + (100.0 if start == "far away" else 0.0)
     for partial in (False, True):
         found = register(source, target, images, growing=True, partial=partial)
         assert np.isfinite(found.y).all() and np.isfinite(list(vars(found.residuals).values())).all()
-        assert np.isfinite(found.residuals.loss)
+        assert np.isfinite(found.residuals.neg_log_likelihood)
 
 
 @pytest.mark.parametrize(
@@ -159,17 +163,17 @@ def test_a_hopeless_map_is_finite(start: str) -> None:
 )
 def test_every_residual_counts_and_by_its_logarithm(name: str, worse: float) -> None:
     both = replace(FAIR, **{name: worse})
-    assert both.loss > FAIR.loss
+    assert both.neg_log_likelihood > FAIR.neg_log_likelihood
     if name == "misfit_back":
-        assert both.loss - FAIR.loss == pytest.approx(np.log(0.05 / 0.02))
+        assert both.neg_log_likelihood - FAIR.neg_log_likelihood == pytest.approx(np.log(0.05 / 0.02))
     if name == "energy":
-        assert both.loss - FAIR.loss == pytest.approx(0.5 * np.log(2))
+        assert both.neg_log_likelihood - FAIR.neg_log_likelihood == pytest.approx(0.5 * np.log(2))
 
 
 def test_the_loss_is_finite_for_perfect_and_for_hopeless_maps() -> None:
     perfect, hopeless = Residuals(0.0, 0.0, 0.0, 1.0, 1.0), Residuals(9.0, 9.0, 9.0, -1.0, -1.0)
-    assert perfect.loss == pytest.approx(4 * np.log(LEAST))
-    assert hopeless.loss == pytest.approx(np.log(3) + np.log(9))  # no worse than no correlation at all
+    assert perfect.neg_log_likelihood == pytest.approx(4 * np.log(LEAST))
+    assert hopeless.neg_log_likelihood == pytest.approx(np.log(3) + np.log(9))  # no worse than no correlation at all
 
 
 def test_correlation_agrees_with_pearson_and_heeds_weights() -> None:

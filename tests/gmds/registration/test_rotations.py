@@ -53,8 +53,8 @@ def by_singular_values(products: Array) -> tuple[Array, Array]:
     u, values, vt = np.linalg.svd(products)
     signs = np.ones((len(u), 3))
     signs[:, 2] = np.sign(np.linalg.det(u) * np.linalg.det(vt))
-    turns = (vt.transpose(0, 2, 1) * signs[:, None]) @ u.transpose(0, 2, 1)
-    return turns, (values * signs).sum(axis=1)
+    rotations = (vt.transpose(0, 2, 1) * signs[:, None]) @ u.transpose(0, 2, 1)
+    return rotations, (values * signs).sum(axis=1)
 
 
 def largest(products: Array) -> Array:
@@ -63,19 +63,19 @@ def largest(products: Array) -> Array:
 
 @pytest.mark.parametrize("name", MATRICES)
 def test_what_comes_back_is_a_rotation_and_never_a_reflection(name: str) -> None:
-    turns, _ = nearest_rotations(MATRICES[name])
-    assert np.allclose(turns @ turns.transpose(0, 2, 1), np.eye(3), atol=1e-13)
-    assert np.allclose(np.linalg.det(turns), 1, atol=1e-13)
+    rotations, _ = nearest_rotations(MATRICES[name])
+    assert np.allclose(rotations @ rotations.transpose(0, 2, 1), np.eye(3), atol=1e-13)
+    assert np.allclose(np.linalg.det(rotations), 1, atol=1e-13)
 
 
 @pytest.mark.parametrize("scale", [1e-30, 1e-9, 1.0, 1e9, 1e30])
 @pytest.mark.parametrize("name", MATRICES)
 def test_the_sum_is_the_largest_there_is(name: str, scale: float) -> None:
     products = scale * MATRICES[name]
-    turns, sums = nearest_rotations(products)
+    rotations, sums = nearest_rotations(products)
     expected = by_singular_values(products)[1]
     assert np.allclose((sums - expected) / largest(products), 0, atol=1e-13)
-    attained = np.einsum("nab,nba->n", turns, products)
+    attained = np.einsum("nab,nba->n", rotations, products)
     assert np.allclose((attained - expected) / largest(products), 0, atol=1e-13)
 
 
@@ -90,8 +90,8 @@ def test_where_there_is_one_best_rotation_it_is_found(name: str, scale: float) -
 def test_points_that_were_turned_are_turned_back() -> None:
     x = RNG.standard_normal((30, 3)) * [1, 2, 0.3]
     products = np.array([x.T @ (x @ turn.T) for turn in TURNS])
-    turns, sums = nearest_rotations(products)
-    assert np.allclose(turns, TURNS, atol=1e-12)
+    rotations, sums = nearest_rotations(products)
+    assert np.allclose(rotations, TURNS, atol=1e-12)
     assert np.allclose(sums, (x**2).sum())
 
 
@@ -104,10 +104,10 @@ def test_no_other_rotation_does_better() -> None:
 
 def test_each_matrix_is_on_its_own_and_none_is_no_trouble() -> None:
     products = MATRICES["random"]
-    turns, sums = nearest_rotations(products)
+    rotations, sums = nearest_rotations(products)
     order = RNG.permutation(len(products))
     again = nearest_rotations(products[order])
-    assert np.array_equal(again[0], turns[order]) and np.array_equal(again[1], sums[order])
+    assert np.array_equal(again[0], rotations[order]) and np.array_equal(again[1], sums[order])
     assert nearest_rotations(np.empty((0, 3, 3)))[0].shape == (0, 3, 3)
 
 

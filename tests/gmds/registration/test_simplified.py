@@ -1,4 +1,4 @@
-"""Surfaces that can not be collapsed as they are: an outline must still come, in little memory."""
+"""Surfaces that cannot be collapsed as they are: a simplified mesh must still come, in little memory."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ MEMORY = 8 << 30  # bytes of address space; a collapse that goes astray takes al
 CODE = """
 import numpy as np, generated_shapes as shapes
 from geodesics import Mesh
-from gmds.registration.deformable import Geometry
+from gmds.registration.deformable import DeformableMesh
 from gmds.surface import measure
 from test_matching_robust import moebius
 ball = shapes.bumpy_sphere(3)
@@ -22,11 +22,11 @@ n = ball.n_vertices
 vertices = np.concatenate([ball.vertices, ball.vertices[:3]])
 mesh = {made}
 whole = measure(mesh)
-outline = Geometry.outline(whole, 300)
-assert outline.mesh.n_faces <= 300 or outline.mesh is whole.mesh
-assert np.isfinite(outline.mesh.vertices).all()
-assert abs(outline.areas.sum() - 1) < 1e-9
-assert np.isin(outline.origin[outline.usable], np.unique(whole.mesh.faces)).all()
+simplified = DeformableMesh.simplified(whole, 300)
+assert simplified.mesh.n_faces <= 300 or simplified.mesh is whole.mesh
+assert np.isfinite(simplified.mesh.vertices).all()
+assert abs(simplified.areas.sum() - 1) < 1e-9
+assert np.isin(simplified.origin[simplified.usable], np.unique(whole.mesh.faces)).all()
 """
 MESHES = {
     "a face with a corner twice": "Mesh(vertices, [*ball.faces, [4, 4, 9]])",

@@ -22,13 +22,13 @@ from gmds.retrieval import (
     Vocabulary,
     bag,
     bag_distances,
-    described,
     learn_vocabulary,
     learned,
     pair_bag,
     ranking,
     retrieval_scores,
     retrieve,
+    signatures_of,
 )
 from gmds.retrieval.mending import largest_piece, mended, parted, smoothed, without_small_holes, without_spikes
 from gmds.retrieval.vocabulary import k_means
@@ -147,7 +147,7 @@ def test_pairs_of_words_add_up_to_words(animal: Mesh) -> None:
 @pytest.fixture(scope="module")
 def bags(animal: Mesh, toys: dict[str, Mesh]) -> Any:
     """A bag of features for each of the descriptors."""
-    examples = [described(mesh, ALL) for mesh in (animal, toys["person"], toys["torus"])]
+    examples = [signatures_of(mesh, ALL) for mesh in (animal, toys["person"], toys["torus"])]
     return {d.name: learned([d], [(parts[i],) for parts in examples], 24) for i, d in enumerate(ALL)}
 
 
@@ -176,7 +176,7 @@ def test_a_pose_is_little_beside_another_shape(animal: Mesh, toys: dict[str, Mes
 
 
 def test_several_descriptors_share_a_bag(animal: Mesh, toys: dict[str, Mesh]) -> None:
-    both = [described(mesh, ALL[:2]) for mesh in (animal, toys["torus"])]
+    both = [signatures_of(mesh, ALL[:2]) for mesh in (animal, toys["torus"])]
     together = learned(ALL[:2], both, 8)
     apart = [learned([d], [(parts[i],) for parts in both], 8) for i, d in enumerate(ALL[:2])]
     found = together.of(both[0])

@@ -55,7 +55,7 @@ def test_refinement_goes_from_images_to_matrix_and_back() -> None:
 
 def test_stress_is_the_mean_difference_of_distances() -> None:
     both, images = pair(1), np.random.default_rng(0).integers(0, 150, 60)
-    rows = both.target.embedding[both.target_samples, :40]
+    rows = both.target.commute_time_embedding[both.target_samples, :40]
     there = cdist(rows[images], rows[images])
     expected = np.abs(both.source_distances - there).mean()
     assert mean_difference(both.source_distances, cdist(rows, rows), images) == pytest.approx(expected)

@@ -43,7 +43,7 @@ def test_everything_that_was_measured_comes_back(tmp_path: Path) -> None:
         for count in (40, 300, 1000):
             assert np.array_equal(one.samples(count), other.samples(count))
     assert np.array_equal(before.squashed_curvature, after.squashed_curvature)
-    here, there = pair.outline(before), pair.outline(after)
+    here, there = pair.simplified(before), pair.simplified(after)
     assert here.mesh.n_faces < mesh.n_faces
     assert np.array_equal(here.mesh.vertices, there.mesh.vertices) and np.array_equal(here.origin, there.origin)
     assert np.array_equal(here.curvature, there.curvature)
