@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import csv
 import os
 import random
 import signal
@@ -25,6 +24,7 @@ from typing import Any
 from geodesics import Mesh
 from gmds import __version__
 from gmds.batch import Batch, local_client, match_collection
+from gmds.files.table import table_text
 from gmds.shapes import humanoid, humanoid_poses, quadruped, quadruped_poses
 
 SAME = ("pairs/*.npz", "shapes/*.npz", "summary.csv", "cycles.csv")
@@ -93,12 +93,9 @@ def parsed() -> argparse.Namespace:
 
 def add_row(path: Path, row: dict[str, object]) -> None:
     """One more line of a CSV."""
-    new = not path.exists()
+    lines = [list(row.values())] if path.exists() else [list(row), list(row.values())]
     with path.open("a", newline="", encoding="utf-8") as stream:
-        writer = csv.DictWriter(stream, list(row), lineterminator="\n")
-        if new:
-            writer.writeheader()
-        writer.writerow(row)
+        stream.write(table_text(lines))
 
 
 def main() -> None:

@@ -10,7 +10,6 @@ mean x100. Writes results/landmarks_HALF.csv as it goes, what is there already i
 from __future__ import annotations
 
 import argparse
-import csv
 import os
 import sys
 from collections.abc import Callable, Iterator
@@ -25,6 +24,7 @@ from benchmarks.accuracy.runs import ONE_THREAD, RESULTS, code_version
 from benchmarks.markdown import table
 from geodesics import SurfacePoints, read_mesh
 from gmds import SoftLandmarks, geodesic_error, match
+from gmds.files.table import read_table, write_table
 from gmds.landmarks.checking import place_on
 
 SET, EVERY, OFF = "shrec20", 4, 0.05
@@ -75,8 +75,7 @@ def judged(name: str) -> list[tuple[Any, ...]]:
 def kept(path: Path, version: str) -> Iterator[tuple[str, ...]]:
     """What is done already by this version."""
     if path.exists():
-        with path.open(newline="", encoding="utf-8") as stream:
-            yield from (tuple(row.values())[1:] for row in csv.DictReader(stream) if row["version"] == version)
+        yield from (tuple(row.values())[1:] for row in read_table(path) if row["version"] == version)
 
 
 def main() -> None:
@@ -94,9 +93,7 @@ def main() -> None:
         for found in pool.map(judged, missing):
             rows += found
             print(*found, sep="\n", file=sys.stderr, flush=True)
-            with path.open("w", newline="", encoding="utf-8") as stream:
-                writer = csv.writer(stream, lineterminator="\n")
-                writer.writerows([COLUMNS, *((version, *row) for row in sorted(rows))])
+            write_table(path, COLUMNS, ((version, *row) for row in sorted(rows)))
     error = {row[:2]: float(row[2]) for row in rows}
     lines = [[name, *(f"{error[name, kind]:.1f}" for kind in KINDS)] for name in names]
     means = [f"{np.mean([error[name, kind] for name in names]):.1f}" for kind in KINDS]

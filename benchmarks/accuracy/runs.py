@@ -7,10 +7,8 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import csv
 import functools
 import hashlib
-import io
 import multiprocessing
 import os
 import subprocess
@@ -22,9 +20,9 @@ from pathlib import Path
 
 from benchmarks.accuracy.halves import DEVELOPMENT, HALVES, half_of, pairs_of
 from benchmarks.places import RESULTS, ROOT
-from geodesics.io import atomic_write
 from gmds.benchmarking.datasets import Pair
 from gmds.benchmarking.run import FIGURES, BenchmarkRow, Matcher, benchmark
+from gmds.files.table import read_table, write_table
 from gmds.shapes import quadruped
 
 CODE = ["geodesics", "gmds", ":!gmds/cli", ":!gmds/report"]
@@ -115,8 +113,7 @@ def read_rows(path: Path, version: str) -> Rows:
     """The rows of a version in a CSV; none where there is no such file, or one of another kind."""
     if not path.is_file():
         return {}
-    with path.open(newline="", encoding="utf-8") as stream:
-        lines = [line for line in csv.DictReader(stream) if line.get("version") == version]
+    lines = [line for line in read_table(path) if line.get("version") == version]
     return {(line["matcher"], line["pair"]): _row(line) for line in lines}
 
 
@@ -127,15 +124,9 @@ def _row(line: Mapping[str, str]) -> BenchmarkRow:
 
 def write_rows(path: Path, version: str, rows: Rows) -> None:
     """All rows, ordered by matcher and pair, written atomically."""
-    text = io.StringIO(newline="")
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(COLUMNS)
-    for (matcher, _), row in sorted(rows.items()):
-        cells = (f"{value:.6g}" if isinstance(value, float) else value for value in asdict(row).values())
-        writer.writerow([matcher, version, *cells])
+    cells = ((matcher, version, *asdict(row).values()) for (matcher, _), row in sorted(rows.items()))
     path.parent.mkdir(parents=True, exist_ok=True)
-    with atomic_write(path) as stream:
-        stream.write(text.getvalue().encode("utf-8"))
+    write_table(path, COLUMNS, cells, digits=6)
 
 
 def chosen_pairs(name: str, half: str | None, every: int) -> list[Pair]:

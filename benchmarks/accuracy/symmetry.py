@@ -10,8 +10,6 @@ Writes results/symmetry.csv row by row, does not do again what it holds for this
 from __future__ import annotations
 
 import argparse
-import csv
-import io
 import multiprocessing
 import os
 import sys
@@ -27,11 +25,11 @@ import gmds
 from benchmarks.accuracy.runs import ONE_THREAD, RESULTS, code_version
 from benchmarks.markdown import table
 from geodesics import Mesh, read_mesh
-from geodesics.io import atomic_write
 from gmds.benchmarking.run import turned
 from gmds.benchmarking.truth_files import read_vts
 from gmds.deformations.local_scaling import branch_log_scale, local_scaling
 from gmds.evaluation import geodesic_error, protocol_subset, summary
+from gmds.files.table import read_table, write_table
 
 SHAPES = (
     *("tosca_hires/" + name for name in ("cat0", "horse0", "centaur0")),
@@ -102,22 +100,16 @@ def stored(path: Path, version: str) -> list[Row]:
     """The rows of a version in a CSV."""
     if not path.is_file():
         return []
-    with path.open(newline="", encoding="utf-8") as stream:
-        lines = [line for line in csv.DictReader(stream) if line["version"] == version]
+    lines = [line for line in read_table(path) if line["version"] == version]
     words = ("version", "shape", "scale", "status")
     return [{key: cell if key in words else float(cell) for key, cell in line.items() if cell} for line in lines]
 
 
 def write(path: Path, rows: list[Row]) -> None:
     """The rows as CSV, ordered, written atomically."""
-    text = io.StringIO(newline="")
-    writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
-    writer.writeheader()
-    for row in sorted(rows, key=lambda row: (row["shape"], row["scale"])):
-        writer.writerow({key: f"{cell:.6g}" if isinstance(cell, float) else cell for key, cell in row.items()})
+    ordered = sorted(rows, key=lambda row: (row["shape"], row["scale"]))
     path.parent.mkdir(parents=True, exist_ok=True)
-    with atomic_write(path) as stream:
-        stream.write(text.getvalue().encode("utf-8"))
+    write_table(path, COLUMNS, ([row.get(column) for column in COLUMNS] for row in ordered), digits=6)
 
 
 def report(rows: list[Row], version: str) -> str:

@@ -12,15 +12,13 @@ their faults crash and which answer with foreign memory may differ from run to r
 from __future__ import annotations
 
 import argparse
-import csv
 import importlib.metadata
 import importlib.util
-import io
 import re
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +32,7 @@ from benchmarks.faults.process import Child
 from benchmarks.faults.tables import Row, page
 from benchmarks.places import RESULTS
 from geodesics.io import atomic_write
+from gmds.files.table import read_table, write_table
 
 OURS = "gmds"
 MODULES = {"libigl": "igl"}
@@ -122,8 +121,7 @@ def read_rows(path: Path) -> list[Row]:
     if not path.is_file():
         return []
     kept = {"True": True, "False": False, "": None}
-    with path.open(newline="", encoding="utf-8") as stream:
-        lines = [line for line in csv.DictReader(stream) if tuple(line) == Row._fields]
+    lines = [line for line in read_table(path) if tuple(line) == Row._fields]
     return [
         Row(**{**line, "kept": kept[line["kept"]], "seconds": float(line["seconds"])})  # type: ignore[arg-type]
         for line in lines
@@ -133,22 +131,9 @@ def read_rows(path: Path) -> list[Row]:
 def write_rows(folder: Path, rows: list[Row]) -> None:
     """Table and page, libraries in the order in which they are named."""
     rows.sort(key=lambda row: list(LIBRARIES).index(row.library))
-
-    def table(stream: io.StringIO) -> None:
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(Row._fields)
-        writer.writerows(rows)
-
-    _write(folder / "faults.csv", table)
-    _write(folder / "faults.md", lambda stream: stream.write(page(rows)))
-
-
-def _write(path: Path, fill: Callable[[io.StringIO], Any]) -> None:
-    """A text file, atomically."""
-    text = io.StringIO(newline="")
-    fill(text)
-    with atomic_write(path) as stream:
-        stream.write(text.getvalue().encode("utf-8"))
+    write_table(folder / "faults.csv", Row._fields, rows)
+    with atomic_write(folder / "faults.md") as stream:
+        stream.write(page(rows).encode("utf-8"))
 
 
 def main() -> int:

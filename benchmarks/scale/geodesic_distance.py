@@ -9,7 +9,6 @@ set-up, which has its own column. Writes benchmarks/results/geodesics.csv and .m
 from __future__ import annotations
 
 import argparse
-import csv
 import os
 import time
 from collections.abc import Callable
@@ -27,6 +26,7 @@ from benchmarks.scale.meshes import remeshed
 from geodesics import GeodesicDistance, Mesh, Metric, SurfacePoints, embedded, farthest_point_sampling, read_mesh
 from geodesics.delaunay import glued_delaunay
 from geodesics.sampling import voronoi_cells
+from gmds.files.table import write_table
 
 Field = Callable[[int], NDArray[np.float64]]
 DATA = Path(os.environ.get("GMDS_DATA", "."))
@@ -192,10 +192,7 @@ def main() -> None:
         rows += measured(name, mesh, sources)
         samples += sampling(name, mesh)
     RESULTS.mkdir(exist_ok=True)
-    with (RESULTS / "geodesics.csv").open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(Row._fields)
-        writer.writerows(rows)
+    write_table(RESULTS / "geodesics.csv", Row._fields, rows)
     (RESULTS / "geodesics.md").write_text(report(rows, samples, meshes), encoding="utf-8")
 
 

@@ -11,7 +11,6 @@ of the same task and size replaces an earlier one, and results/scale.md is writt
 from __future__ import annotations
 
 import argparse
-import csv
 import json
 import os
 import subprocess
@@ -24,6 +23,7 @@ import numpy as np
 
 from benchmarks.places import RESULTS
 from benchmarks.scale.meshes import SIZES, load, mesh_path
+from gmds.files.table import read_table, write_table
 
 CSV, PAGE = RESULTS / "scale.csv", RESULTS / "scale.md"
 COLUMNS = "task", "size", "vertices", "cpu", "wall", "setup", "peak", "marches", "residual", "stress", "iterations"
@@ -74,17 +74,13 @@ def read_rows() -> Rows:
     """What has been measured."""
     if not CSV.is_file():
         return {}
-    with CSV.open(newline="", encoding="utf-8") as file:
-        return {(row["task"], row["size"]): row for row in csv.DictReader(file)}
+    return {(row["task"], row["size"]): row for row in read_table(CSV)}
 
 
 def write_rows(rows: Rows) -> None:
     """All rows, in the order of the plan."""
-    order = [(task, size) for task in PLAN for size in SIZES]
-    with CSV.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, COLUMNS, restval="", lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows[key] for key in order if key in rows)
+    order = [(task, size) for task in PLAN for size in SIZES if (task, size) in rows]
+    write_table(CSV, COLUMNS, ([rows[key].get(column) for column in COLUMNS] for key in order))
 
 
 def goals(rows: Rows) -> list[str]:

@@ -10,8 +10,6 @@ Writes results/repairs.csv and results/repairs.md.
 
 from __future__ import annotations
 
-import csv
-import io
 import os
 import sys
 import time
@@ -28,6 +26,7 @@ from geodesics import GeodesicDistance, Mesh, SurfacePoints, eigenpairs, read_me
 from geodesics.check import check
 from geodesics.io import atomic_write
 from geodesics.repair.repairing import Repaired, repair
+from gmds.files.table import write_table
 
 FOLDERS = {"tosca_hires": "*.off", "tosca_nonrigid_3k": "*.vert", "shrec20/models": "*.obj"}
 
@@ -121,13 +120,9 @@ def page(found: Sequence[Row]) -> str:
 def main() -> None:
     """Run and write."""
     found = list(rows(Path(os.environ["GMDS_DATA"])))
-    text = io.StringIO(newline="")
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(Row._fields)
-    writer.writerows(found)
-    for name, content in (("repairs.csv", text.getvalue()), ("repairs.md", page(found))):
-        with atomic_write(RESULTS / name) as stream:
-            stream.write(content.encode("utf-8"))
+    write_table(RESULTS / "repairs.csv", Row._fields, found)
+    with atomic_write(RESULTS / "repairs.md") as stream:
+        stream.write(page(found).encode("utf-8"))
     print(page(found))
 
 

@@ -7,7 +7,6 @@ python landmark_specimens.py FOLDER --template T.ply --landmarks T.mrk.json [-o 
 from __future__ import annotations
 
 import argparse
-import csv
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,6 +19,8 @@ from numpy.typing import NDArray
 import gmds
 from geodesics import Mesh, MeshError, read_mesh
 from geodesics.errors import FormatError
+from gmds.files.folders import mesh_files
+from gmds.files.table import write_table
 from gmds.landmarks.files import Landmarks, read_landmarks
 from gmds.landmarks.transfer import carry_landmarks
 from gmds.pictures.camera import Direction
@@ -28,7 +29,6 @@ from gmds.surface.measured import Surface, measure
 
 Array = NDArray[np.float64]
 
-ENDINGS = (".ply", ".obj", ".off", ".stl", ".glb", ".vert")
 UP: dict[str, Direction] = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 DOUBTFUL = 0.3  # confidence of a landmark below which it needs a look
 FAR = 3.0  # times the median distance from the mean shape beyond which a specimen does
@@ -79,12 +79,12 @@ def reasons(specimens: list[Specimen], marks: Landmarks, distance: Array) -> Ite
 
 def write_tables(out: Path, specimens: list[Specimen], marks: Landmarks) -> Array:
     """landmarks.csv (a row a landmark), landmarks.tps, shapes.csv (a row a specimen); distances from the mean shape."""
-    with (out / "landmarks.csv").open("w", newline="") as stream:
-        table = csv.writer(stream)
-        table.writerow(["specimen", "landmark", "x", "y", "z", "confidence", "valid"])
-        for one in specimens:
-            rows = zip(marks.names, one.positions.tolist(), one.confidence, one.valid, strict=True)
-            table.writerows([one.name, name, *at, f"{trust:.4f}", int(valid)] for name, at, trust, valid in rows)
+    table = [
+        (one.name, name, *at, f"{trust:.4f}", int(valid))
+        for one in specimens
+        for name, at, trust, valid in zip(marks.names, one.positions.tolist(), one.confidence, one.valid, strict=True)
+    ]
+    write_table(out / "landmarks.csv", ["specimen", "landmark", "x", "y", "z", "confidence", "valid"], table)
     blocks = []
     for one in specimens:
         rows = "\n".join(" ".join(map(repr, at)) if valid else "NA NA NA" for at, valid in _placed(one))
@@ -96,15 +96,16 @@ def write_tables(out: Path, specimens: list[Specimen], marks: Landmarks) -> Arra
         print(f"no shapes.csv: {error}")
         return np.full(len(specimens), np.nan)
     distance = procrustes.distances(aligned, mean)
-    with (out / "shapes.csv").open("w", newline="") as stream:
-        table = csv.writer(stream)
-        axes = [f"{name}.{axis}" for name in marks.names for axis in "xyz"]
-        table.writerow(["specimen", "centroid_size", "distance_to_mean", *axes])
-        for one, shape, far in zip(specimens, aligned, distance, strict=True):
-            size = procrustes.centroid_size(one.positions) if one.valid.all() else "NA"
-            cells = ["NA" if np.isnan(x) else repr(float(x)) for x in shape.ravel()]
-            table.writerow([one.name, size, float(far), *cells])
+    axes = [f"{name}.{axis}" for name in marks.names for axis in "xyz"]
+    rows = (_row(*known) for known in zip(specimens, aligned, distance.tolist(), strict=True))
+    write_table(out / "shapes.csv", ["specimen", "centroid_size", "distance_to_mean", *axes], rows)
     return distance
+
+
+def _row(one: Specimen, shape: Array, far: float) -> list[object]:
+    """A row of shapes.csv; R and others read NA as a value that is missing."""
+    size = procrustes.centroid_size(one.positions) if one.valid.all() else "NA"
+    return [one.name, size, far, *("NA" if np.isnan(x) else x for x in shape.ravel().tolist())]
 
 
 def _placed(one: Specimen) -> Iterator[tuple[list[float], bool]]:
@@ -127,8 +128,7 @@ def run(
         print(f"{name}: {done[-1].status.name}, {int(done[-1].doubtful.sum())} of {len(marks)} landmarks doubtful")
     if done:
         to_look_at += reasons(done, marks, write_tables(out, done, marks))
-    with (out / "to_look_at.csv").open("w", newline="") as stream:
-        csv.writer(stream).writerows([("specimen", "why"), *to_look_at])
+    write_table(out / "to_look_at.csv", ["specimen", "why"], to_look_at)
     for name, why in to_look_at:
         print(f"needs a look: {name}: {why}")
     return done
@@ -136,8 +136,8 @@ def run(
 
 def in_folder(folder: Path, template: Path) -> Iterator[tuple[str, Mesh]]:
     """The meshes of a folder but for the template; those that can not be read are told and left out."""
-    for path in sorted(folder.iterdir()):
-        if path.suffix.lower() in ENDINGS and path.resolve() != template.resolve():
+    for path in mesh_files(folder):
+        if path.resolve() != template.resolve():
             try:
                 yield path.stem, read_mesh(path)
             except (FormatError, MeshError) as error:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import csv
 import functools
-import io
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
@@ -12,10 +10,10 @@ import numpy as np
 
 from geodesics import Mesh, SurfacePoints
 from geodesics.arrays import Integers
-from geodesics.io import atomic_write
 from gmds.batch.cycles import CarriedMap, Consistency, Pair, consistency
 from gmds.batch.records import PairRecord, ShapeRecord
 from gmds.batch.store import Store
+from gmds.files.table import write_table
 
 SAMPLES = 300  # of each shape, that go around
 IN_MEMORY = 4096  # maps
@@ -47,10 +45,5 @@ def agreement(
 
 def write_cycles(path: Path, found: Consistency) -> None:
     """A row a cycle, worst first, atomically."""
-    text = io.StringIO(newline="")
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["cycle", "mean", "within_005", "within_010"])
-    for cycle in found.cycles:
-        writer.writerow([cycle, *(f"{x:.6g}" for x in (cycle.mean, cycle.within_005, cycle.within_010))])
-    with atomic_write(path) as stream:
-        stream.write(text.getvalue().encode("utf-8", "replace"))
+    rows = ((str(cycle), cycle.mean, cycle.within_005, cycle.within_010) for cycle in found.cycles)
+    write_table(path, ["cycle", "mean", "within_005", "within_010"], rows, digits=6)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 import os
 import time
@@ -12,10 +10,8 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from geodesics.io import atomic_write
 from gmds.batch.records import PairRecord
-
-FORMULA = ("=", "+", "-", "@", "\t", "\r")
+from gmds.files.table import write_table
 
 
 class Manifest:
@@ -54,17 +50,5 @@ def event(record: Any) -> dict[str, Any]:
 
 def write_summary(path: Path, records: Iterable[PairRecord]) -> None:
     """One row a pair, atomically; no row says anything that an undisturbed run would say differently."""
-    text = io.StringIO(newline="")
-    writer = csv.DictWriter(text, list(PairRecord("", "").cells()), lineterminator="\n")
-    writer.writeheader()
-    for record in records:
-        writer.writerow({name: _cell(value) for name, value in record.cells().items()})
-    with atomic_write(path) as stream:
-        stream.write(text.getvalue().encode("utf-8", "replace"))
-
-
-def _cell(value: Any) -> str:
-    if isinstance(value, float):
-        return f"{value:.6g}"
-    text = "" if value is None else " ".join(str(value).split())
-    return f"'{text}" if text.startswith(FORMULA) else text
+    head = list(PairRecord("", "").cells())
+    write_table(path, head, (list(record.cells().values()) for record in records), digits=6)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import os
 import time
 from collections.abc import Callable, Iterable, Iterator
@@ -13,11 +11,11 @@ from typing import Any
 import numpy as np
 
 from geodesics.arrays import Floats
-from geodesics.io import atomic_write
 from geodesics.mesh import Mesh
 from gmds.benchmarking.datasets import Pair
 from gmds.correspondence import Correspondence
 from gmds.evaluation import coverage, geodesic_error, protocol_subset, summary
+from gmds.files.table import write_table
 
 Matcher = Callable[..., Correspondence]
 
@@ -134,17 +132,5 @@ def _mean(name: str, rows: list[BenchmarkRow]) -> BenchmarkRow:
 
 def write_csv(path: str | os.PathLike[str], rows: Iterable[BenchmarkRow]) -> None:
     """The rows as a table, written atomically; a cell that a spreadsheet would run as a formula is quoted."""
-    text = io.StringIO(newline="")
-    writer = csv.writer(text)
-    writer.writerow([column.name for column in fields(BenchmarkRow)])
-    for row in rows:
-        writer.writerow([_cell(value) for value in asdict(row).values()])
-    with atomic_write(path) as stream:
-        stream.write(text.getvalue().encode("utf-8"))
-
-
-def _cell(value: object) -> str:
-    if isinstance(value, float):
-        return f"{value:.6g}"
-    text = "" if value is None else str(value)
-    return f"'{text}" if text[:1] in ("=", "+", "-", "@", "\t", "\r") else text
+    head = [column.name for column in fields(BenchmarkRow)]
+    write_table(path, head, (list(asdict(row).values()) for row in rows), digits=6)

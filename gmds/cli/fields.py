@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from gmds.cli.choices import DISTANCES, METRICS
-from gmds.cli.output import cell, tell_written
+from gmds.cli.output import tell_written
 from gmds.cli.paths import EndingIn
 
 if TYPE_CHECKING:
@@ -43,16 +43,19 @@ def write_field(path: Path, arrays: Mapping[str, NDArray[Any]], columns: Mapping
     import numpy as np
 
     from geodesics.io import atomic_write
+    from gmds.files.table import write_table
 
     ending = path.suffix.lower()
+    if ending == ".csv":
+        rows = zip(*(column.tolist() for column in columns.values()), strict=True)
+        write_table(path, ["vertex", *columns], ((vertex, *row) for vertex, row in enumerate(rows)))
+        return
     with atomic_write(path) as stream:
         if ending == ".npz":
             packed: dict[str, Any] = dict(arrays)
             np.savez_compressed(stream, **packed)
-        elif ending == ".npy":
-            np.save(stream, next(iter(arrays.values())), allow_pickle=False)
         else:
-            stream.write(_table(columns).encode("utf-8"))
+            np.save(stream, next(iter(arrays.values())), allow_pickle=False)
 
 
 def draw(path: Path | None, surfaces: list[tuple[str, Mesh, NDArray[np.generic]]], *, labels: bool = False) -> None:
@@ -62,15 +65,3 @@ def draw(path: Path | None, surfaces: list[tuple[str, Mesh, NDArray[np.generic]]
     from gmds.pictures.panels import write_values
 
     tell_written(path, write_values(path, surfaces, labels=labels))
-
-
-def _table(columns: Mapping[str, NDArray[Any]]) -> str:
-    import csv
-    import io
-
-    text = io.StringIO(newline="")
-    writer = csv.writer(text)
-    writer.writerow(["vertex", *columns])
-    for row in enumerate(zip(*(column.tolist() for column in columns.values()), strict=True)):
-        writer.writerow([row[0], *(cell(value) if isinstance(value, str) else value for value in row[1])])
-    return text.getvalue()

@@ -28,11 +28,6 @@ def emit(result: Mapping[str, Any], as_json: bool) -> None:
         click.echo(f"{name + ':':<{width + 1}} {_plain(value)}")
 
 
-def cell(text: str) -> str:
-    """Text for a table; what a spreadsheet would run as a formula is quoted."""
-    return f"'{text}" if text[:1] in ("=", "+", "-", "@") else text
-
-
 def note(message: str) -> None:
     """One line on stderr."""
     click.echo(message, err=True)

@@ -21,6 +21,7 @@ from geodesics.io import atomic_write
 from gmds.comparison import distortion as morphometry
 from gmds.comparison import profiles
 from gmds.comparison.clustering import nearest
+from gmds.files.table import table_text
 from gmds.maps.npz_format import fingerprint
 from gmds.surface.measured import SMOOTHING
 from gmds.surface.view import View
@@ -141,5 +142,5 @@ class _Distortions:
         if key not in self.known:
             self.known[key] = compute()
             with self.path.open("a", newline="", encoding="utf-8") as stream:
-                csv.writer(stream, lineterminator="\n").writerow([*key, repr(self.known[key])])
+                stream.write(table_text([[*key, self.known[key]]]))
         return self.known[key]

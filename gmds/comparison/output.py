@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import csv
 import html
 import io
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from importlib.resources import files
 from pathlib import Path
 from string import Template
@@ -17,6 +16,7 @@ from geodesics.io import atomic_write
 from gmds.comparison.clustering import nearest, plane_map, tree
 from gmds.comparison.figure import comparison_figure
 from gmds.comparison.folder import Compared
+from gmds.files.table import write_table
 
 Neighbour = tuple[str, int, str, float, float | None]  # shape, rank, other, bound, distortion
 
@@ -32,34 +32,25 @@ def write_comparison(compared: Compared, folder: Path, *, title: str = "Dissimil
     """
     folder.mkdir(parents=True, exist_ok=True)
     names, matrix = compared.names, compared.matrix
-    rows = ([name, *map(repr, row.tolist())] for name, row in zip(names, matrix, strict=True))
-    _table(folder / "matrix.csv", ["", *names], rows)
+    rows = ([name, *row.tolist()] for name, row in zip(names, matrix, strict=True))
+    write_table(folder / "matrix.csv", ["", *names], rows)
     neighbours = [
         (name, rank + 1, names[j], float(compared.bounds[i, j]), _known(compared.distortions[i, j]))
         for i, (name, row) in enumerate(zip(names, nearest(matrix, SHOWN), strict=True))
         for rank, j in enumerate(row)
         if i != j
     ]
-    _table(folder / "nearest.csv", ["shape", "rank", "other", "bound", "distortion"], neighbours)
+    write_table(folder / "nearest.csv", ["shape", "rank", "other", "bound", "distortion"], neighbours)
     merges = ((int(a), int(b), float(height), int(size)) for a, b, height, size in tree(matrix))
-    _table(folder / "tree.csv", ["cluster", "other", "height", "shapes"], merges)
+    write_table(folder / "tree.csv", ["cluster", "other", "height", "shapes"], merges)
     places = ((name, *map(float, place)) for name, place in zip(names, plane_map(matrix), strict=True))
-    _table(folder / "map.csv", ["shape", "x", "y"], places)
+    write_table(folder / "map.csv", ["shape", "x", "y"], places)
     figure = comparison_figure(names, matrix)
     with atomic_write(folder / "compare.png") as stream:
         figure.savefig(stream, format="png", metadata={"Software": None})
     page = _page(compared, neighbours, _svg(figure), title)
     with atomic_write(folder / "compare.html") as stream:
         stream.write(page.encode("utf-8", "replace"))
-
-
-def _table(path: Path, head: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(head)
-    writer.writerows(rows)
-    with atomic_write(path) as stream:
-        stream.write(text.getvalue().encode("utf-8", "replace"))
 
 
 def _svg(figure: Any) -> str:

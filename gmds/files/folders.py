@@ -17,7 +17,7 @@ def mesh_files(folder: Path) -> list[Path]:
     if not folder.is_dir():
         raise FileNotFoundError(f"{folder} is not a folder")
     found: dict[str, Path] = {}
-    for path in sorted(p for p in folder.iterdir() if p.suffix.lower() in SUFFIXES):
+    for path in sorted(p for p in folder.iterdir() if p.is_file() and p.suffix.lower() in SUFFIXES):
         found.setdefault(path.stem, path)
     if not found:
         raise FormatError(f"{folder} has no mesh files ({', '.join(SUFFIXES)})")

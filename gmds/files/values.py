@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from geodesics.arrays import Floats
 from geodesics.errors import FormatError
 from gmds.files.npz import read_npy
+from gmds.files.table import unguarded
 
 KINDS = "biufcU"  # truth values, numbers, words
 
@@ -59,7 +60,7 @@ def _from_text(path: Path, count: int, labels: bool) -> NDArray[Any]:
     for number, words in rows:
         if len(words) != width:
             raise BadValuesFile(f"{path}, line {number}: {len(words)} entries where the first row has {width}")
-    values = _labels(rows) if labels else _numbers(path, rows)
+    values = _labels(path, rows) if labels else _numbers(path, rows)
     return values[:, 0] if width == 1 else values
 
 
@@ -94,8 +95,9 @@ def _numbers(path: Path, rows: list[tuple[int, list[str]]]) -> Floats:
     return values
 
 
-def _labels(rows: list[tuple[int, list[str]]]) -> NDArray[Any]:
-    words = [words for _, words in rows]
+def _labels(path: Path, rows: list[tuple[int, list[str]]]) -> NDArray[Any]:
+    as_given = unguarded if path.suffix.lower() == ".csv" else str
+    words = [[as_given(word) for word in words] for _, words in rows]
     try:
         return np.array([[int(word) for word in row] for row in words], dtype=np.int64)
     except (ValueError, OverflowError):

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import csv
 import io
 import os
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
 
 from geodesics.errors import FormatError
 from geodesics.io import atomic_write
+from gmds.files.table import table_text
 from gmds.maps.point_map import PointMap
 
 ENDINGS = (".csv", ".mat")
@@ -61,9 +62,6 @@ def export_map(answer: PointMap, path: str | os.PathLike[str]) -> None:
 
 
 def _csv(answer: PointMap) -> bytes:
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(COLUMNS)
     columns = (
         range(len(answer.points)),
         answer.vertex_map().tolist(),
@@ -73,8 +71,7 @@ def _csv(answer: PointMap) -> bytes:
         answer.valid.astype(int).tolist(),
         answer.distortion.tolist(),
     )
-    writer.writerows(zip(*columns, strict=True))
-    return out.getvalue().encode("ascii")
+    return table_text(chain([COLUMNS], zip(*columns, strict=True))).encode("ascii")
 
 
 def _mat(answer: PointMap) -> bytes:

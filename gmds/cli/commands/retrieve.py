@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
 from gmds.cli.group import BAD_INPUT, UNFINISHED, Command
-from gmds.cli.output import cell, emit, json_option, note, progress_bar, seed_option
+from gmds.cli.output import emit, json_option, note, progress_bar, seed_option
 from gmds.cli.paths import OutputFile
 
 if TYPE_CHECKING:
     from gmds.retrieval import Described
 
-SUFFIXES = (".off", ".obj", ".ply", ".stl", ".glb", ".vert")
 COLUMNS = ("rank", "mesh", "distance")
 
 
@@ -33,12 +32,15 @@ def command(query: Path, folder: Path, output: Path | None, words: int, seed: in
 
     Meshes are compared by bags of features (ShapeGoogle, Table 1 of the paper) whose vocabulary is learned from DIR and
     QUERY. A distance is from 0 (alike) to 2 (nothing in common). QUERY itself is left out where it lies in DIR; a mesh
-    that cannot be read or measured is named on stderr and left out, and the exit code is 3.
+    that cannot be read or measured is named on stderr and left out, and the exit code is 3. Of files whose names differ
+    in their suffix alone, the first in the alphabet counts.
     """
+    from gmds.files.folders import SUFFIXES, mesh_files
+    from gmds.files.table import write_table
     from gmds.retrieval import DEFAULT, learned, ranking
 
     asked = _described(query)
-    paths = [path for path in _meshes_in(folder) if not path.samefile(query)]
+    paths = [path for path in mesh_files(folder) if not path.samefile(query)]
     if not paths:
         note(f"gmds: {folder}: no mesh there to compare with ({', '.join(SUFFIXES)})")
         raise click.exceptions.Exit(BAD_INPUT)
@@ -58,7 +60,7 @@ def command(query: Path, folder: Path, output: Path | None, words: int, seed: in
         for rank, (name, distance) in enumerate(zip(names, ranked.distances, strict=True), 1)
     ]
     if output is not None:
-        _write(output, rows)
+        write_table(output, COLUMNS, (list(row.values()) for row in rows), digits=6)
     failed = len(paths) - len(found)
     if as_json:
         emit({"query": str(query), "ranking": rows, "left_out": failed}, as_json)
@@ -74,23 +76,3 @@ def _described(path: Path) -> tuple[Described, ...]:
     from gmds.retrieval import DEFAULT, signatures_of
 
     return signatures_of(read_mesh(path), DEFAULT)
-
-
-def _meshes_in(folder: Path) -> list[Path]:
-    """Mesh files by name; a TOSCA shape is its .vert file."""
-    return sorted(path for path in folder.iterdir() if path.is_file() and path.suffix.lower() in SUFFIXES)
-
-
-def _write(path: Path, rows: list[dict[str, Any]]) -> None:
-    import csv
-    import io
-
-    from geodesics.io import atomic_write
-
-    text = io.StringIO(newline="")
-    writer = csv.DictWriter(text, COLUMNS)
-    writer.writeheader()
-    for row in rows:
-        writer.writerow(row | {"mesh": cell(row["mesh"]), "distance": f"{row['distance']:.6g}"})
-    with atomic_write(path) as stream:
-        stream.write(text.getvalue().encode("utf-8"))

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import csv
-import io
 import json
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
+from gmds.files.table import table_text, unguarded
 from gmds.landmarks.files.named_points import SPACES, BadLandmarkFile, Landmarks, Space, turned
 from gmds.landmarks.files.reading import Rows, position
 
@@ -81,21 +81,20 @@ def parse_fcsv(path: Path, text: str, space: Space) -> Landmarks:
         raise BadLandmarkFile(f"{path} does not say its frame; add the line `# CoordinateSystem = LPS` (or RAS)")
     for number, cells in places:
         at = position(path, number, [cells[axis] for axis in "xyz"])
-        rows.add(f"line {number}", cells["label"], at)
+        rows.add(f"line {number}", unguarded(cells["label"]), at)
     found = rows.landmarks()
     return Landmarks(found.names, turned(found.at, given, space), found.named)
 
 
 def fcsv_text(landmarks: Landmarks, space: Space, columns: Columns) -> str:
     """Fiducials in the frame `space`; line ends in names become blanks, as a fiducial is a line."""
-    out = io.StringIO()
-    out.write(f"# Markups fiducial file version = 4.13\n# CoordinateSystem = {space}\n# columns = {FCSV_COLUMNS}\n")
-    writer = csv.writer(out, lineterminator="\n")
+    head = f"# Markups fiducial file version = 4.13\n# CoordinateSystem = {space}\n# columns = {FCSV_COLUMNS}\n"
+    rows: list[list[object]] = []
     for i, name in enumerate(landmarks.names):
         label = " ".join(name.split())
         place = landmarks.positions[i].tolist()
-        writer.writerow([i + 1, *place, 0, 0, 0, 1, 1, 1, 0, label, _described(columns, i), ""])
-    return out.getvalue()
+        rows.append([i + 1, *place, 0, 0, 0, 1, 1, 1, 0, label, _described(columns, i), ""])
+    return head + table_text(rows)
 
 
 def _read_markup(rows: Rows, where: str, markup: Any, space: Space) -> None:

@@ -7,6 +7,7 @@ import io
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from gmds.files.table import table_text, unguarded
 from gmds.landmarks.files.named_points import SPACES, BadLandmarkFile, Landmarks, Space, turned
 from gmds.landmarks.files.reading import Rows, is_number, position, whole
 
@@ -30,7 +31,7 @@ def parse_csv(path: Path, text: str, space: Space) -> Landmarks:
     for line, row in table[headed:]:
         if len(row) != width:
             raise BadLandmarkFile(f"{path}, line {line}: {len(row)} entries where the first line has {width}")
-        name = row[columns["name"][0]] if "name" in columns else None
+        name = unguarded(row[columns["name"][0]]) if "name" in columns else None
         at: list[float] | int | None = None
         if "vertex" in columns:
             at = whole(path, line, row[columns["vertex"][0]])
@@ -50,16 +51,14 @@ def parse_csv(path: Path, text: str, space: Space) -> Landmarks:
 
 def csv_text(landmarks: Landmarks, _: Space, columns: Columns) -> str:
     """A table with the header name,x,y,z, name,vertex or name,face,w0,w1,w2, then the further columns."""
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
     table = landmarks.at.reshape(len(landmarks), -1)
     titles = {1: ("vertex",), 3: ("x", "y", "z"), 4: BARYCENTRIC}[table.shape[1]]
-    writer.writerow(["name", *titles, *columns])
+    rows: list[list[object]] = [["name", *titles, *columns]]
     for i, name in enumerate(landmarks.names):
         first, *others = table[i].tolist()
         place = [first if len(others) == 2 else int(first), *others]
-        writer.writerow([name, *place, *(values[i] for values in columns.values())])
-    return out.getvalue()
+        rows.append([name, *place, *(values[i] for values in columns.values())])
+    return table_text(rows)
 
 
 def _table(path: Path, text: str) -> list[tuple[int, list[str]]]:

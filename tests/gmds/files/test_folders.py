@@ -1,0 +1,19 @@
+"""Which files of a folder are meshes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from geodesics.errors import FormatError
+from gmds.files.folders import mesh_files
+
+
+def test_mesh_files_are_found_once(tmp_path: Path) -> None:
+    for name in ("b.ply", "a.off", "a.ply", "A.OBJ", "notes.txt", "t.vert", "t.tri"):
+        (tmp_path / name).touch()
+    (tmp_path / "folder.off").mkdir()
+    assert [path.name for path in mesh_files(tmp_path)] == ["A.OBJ", "a.off", "b.ply", "t.vert"]
+    with pytest.raises(FormatError, match="no mesh files"):
+        mesh_files(tmp_path / "folder.off")
