@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from geodesics.arrays import Floats, Integers
+from geodesics.barycentric import combination
 
 
 def closest_on_triangles(queries: Floats, vertices: Floats, faces: Integers) -> tuple[Integers, Floats, Floats]:
@@ -15,7 +16,7 @@ def closest_on_triangles(queries: Floats, vertices: Floats, faces: Integers) -> 
     _, face, _ = igl.point_mesh_squared_distance(np.ascontiguousarray(queries), vertices, np.ascontiguousarray(faces))
     face = np.asarray(face, dtype=np.int64).reshape(-1)
     weights = closest_weights(queries, vertices[faces[face]])
-    gap = np.linalg.norm(np.einsum("pk,pkj->pj", weights, vertices[faces[face]]) - queries, axis=1)
+    gap = np.linalg.norm(combination(weights, vertices[faces[face]]) - queries, axis=1)
     return face, weights, gap
 
 

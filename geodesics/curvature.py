@@ -14,13 +14,10 @@ from geodesics.laplacian import cotangent_matrix
 from geodesics.linalg.factors import factorised
 from geodesics.mesh import Mesh
 from geodesics.moved_paths import names_moved
+from geodesics.smoothing import DEFAULT, FIRST_LOOK
 from geodesics.topology.components import boundary_vertices
 from geodesics.topology.edges import proper_faces
 from geodesics.topology.orientation import orient_faces
-
-# chosen on half of the shapes of benchmarks/stability/curvature_stability.py
-SMOOTHING = 4e-3
-COARSE = 3e-3  # of the area of the surface
 
 
 def angle_defect(mesh: Mesh) -> Floats:
@@ -35,7 +32,7 @@ def angle_defect(mesh: Mesh) -> Floats:
     return flat - vertex_sums(faces, theta, mesh.n_vertices)
 
 
-def gaussian_curvature(mesh: Mesh, smoothing: float = SMOOTHING) -> Floats:
+def gaussian_curvature(mesh: Mesh, smoothing: float = DEFAULT) -> Floats:
     """Gaussian curvature K (n,) in units of 1 / length^2: the angle defect, smoothed so that remeshing keeps it.
 
     One implicit heat step (A + div(tau grad)) K = defect whose time tau at each place is `smoothing` times the area of
@@ -50,7 +47,7 @@ def gaussian_curvature(mesh: Mesh, smoothing: float = SMOOTHING) -> Floats:
     return smoothed_density(triangulation, defect, interior, time)
 
 
-def mean_curvature(mesh: Mesh, smoothing: float = SMOOTHING) -> Floats:
+def mean_curvature(mesh: Mesh, smoothing: float = DEFAULT) -> Floats:
     """Mean curvature H (n,) in units of 1 / length, positive where a closed surface is convex.
 
     2 H n is the Laplacian of position (W x = 2 A H n), n the normals of `vertex_normals`; smoothed as
@@ -64,7 +61,7 @@ def mean_curvature(mesh: Mesh, smoothing: float = SMOOTHING) -> Floats:
     return smoothed_density(triangulation, bend, interior, time)
 
 
-def principal_curvatures(mesh: Mesh, smoothing: float = SMOOTHING) -> tuple[Floats, Floats]:
+def principal_curvatures(mesh: Mesh, smoothing: float = DEFAULT) -> tuple[Floats, Floats]:
     """Principal curvatures k1 >= k2, each (n,) in units of 1 / length: H +- sqrt(H^2 - K), the root cut off at 0."""
     h = mean_curvature(mesh, smoothing)
     root = np.sqrt(np.maximum(h**2 - gaussian_curvature(mesh, smoothing), 0))
@@ -92,7 +89,7 @@ def curvature_time(triangulation: IntrinsicTriangulation, defect: Floats, interi
     That curvature is a coarse look at K. At most `smoothing` times the area of the surface, where it is flat.
     """
     area = intrinsic.areas(triangulation.l_sq).sum()
-    coarse = smoothed_density(triangulation, defect, interior, np.full(len(triangulation.faces), COARSE * area))
+    coarse = smoothed_density(triangulation, defect, interior, np.full(len(triangulation.faces), FIRST_LOOK * area))
     curvature = np.hypot(coarse, 4 * np.pi / area)[triangulation.faces].mean(axis=1)
     return smoothing * 4 * np.pi / curvature
 

@@ -12,7 +12,7 @@ from geodesics.caching import memoized
 from geodesics.intrinsic import squared_lengths
 from geodesics.mesh import Mesh
 from geodesics.moved_paths import names_moved
-from geodesics.topology.edges import proper_faces
+from geodesics.topology.edges import edge_keys, proper_faces, twice_given
 
 
 class IntrinsicTriangulation(NamedTuple):
@@ -97,13 +97,10 @@ def glued(faces: Integers, lengths: Floats, origin: Integers, n: int) -> GluedTr
 
 def twins(faces: Integers) -> Integers:
     """For each half-edge (3 m,) the other one on an edge with exactly two faces, else -1."""
-    ends = np.sort(faces[:, [[1, 2], [2, 0], [0, 1]]].reshape(-1, 2), axis=1)
-    order = np.lexsort((ends[:, 1], ends[:, 0]))
-    new = np.append(True, (np.diff(ends[order], axis=0) != 0).any(axis=1)) if len(order) else np.zeros(0, dtype=bool)
-    first = np.flatnonzero(new)
-    pairs = first[np.diff(np.append(first, len(order))) == 2]
-    twin = np.full(len(order), -1, dtype=np.int64)
-    twin[order[pairs]], twin[order[pairs + 1]] = order[pairs + 1], order[pairs]
+    keys = edge_keys(np.roll(faces, -1, axis=1), np.roll(faces, -2, axis=1), int(faces.max(initial=0)) + 1).ravel()
+    one, other = twice_given(keys)
+    twin = np.full(len(keys), -1, dtype=np.int64)
+    twin[one], twin[other] = other, one
     return twin
 
 

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from geodesics._validation import as_indices, as_vertices, as_weights
 from geodesics.arrays import Bools, Floats, Integers
+from geodesics.barycentric import combination
 from geodesics.caching import memoized
 from geodesics.closest import closest_on_triangles
 from geodesics.errors import BadShape, IndexOutOfRange
@@ -88,7 +89,7 @@ class SurfacePoints:
         if values.ndim == 0 or len(values) != self.mesh.n_vertices:
             raise BadShape(f"values must have one row per vertex, {self.mesh.n_vertices}, not shape {values.shape}")
         corners = values[self.mesh.faces[self.face]]
-        return np.einsum("pk,pk...->p...", self.barycentric, corners)
+        return combination(self.barycentric, corners)
 
     def nearest_vertices(self) -> Integers:
         """The corner with the largest weight, shape (p,)."""

@@ -13,6 +13,7 @@ from geodesics.delaunay import mollified
 from geodesics.errors import BadShape
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
+from geodesics.topology.edges import edge_keys, twice_given
 
 
 def walk(
@@ -110,11 +111,8 @@ def _join(faces: Integers, kept: Integers, table: Integers) -> None:
     """Fill the table for edges that exactly two of the kept faces share."""
     slot = np.array([[1, 2], [2, 0], [0, 1]])
     ends = faces[kept][:, slot].reshape(-1, 2)
-    key = ends.min(axis=1) * (faces.max() + 1) + ends.max(axis=1)
-    order = np.argsort(key, kind="stable")
-    group_start = np.flatnonzero(np.r_[True, np.diff(key[order]) > 0])
-    pairs = group_start[np.diff(np.r_[group_start, len(key)]) == 2]
-    for one, other in ((order[pairs], order[pairs + 1]), (order[pairs + 1], order[pairs])):
+    first, second = twice_given(edge_keys(ends[:, 0], ends[:, 1], int(faces.max()) + 1))
+    for one, other in ((first, second), (second, first)):
         same_way = ends[one, 0] == ends[other, 0]
         a, b = slot[other % 3].T
         code = np.where(same_way, 3 * a + b, 3 * b + a)

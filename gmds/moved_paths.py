@@ -140,7 +140,7 @@ MOVED: Mapping[str, tuple[str, ...]] = {
     "gmds.tabulated": ("gmds.mds.tabulated",),
     "gmds.text_file": ("gmds.files.text",),
     "gmds.transfer": ("gmds.maps.values",),
-    "gmds.triangulation": ("geodesics.repair.triangulation",),
+    "gmds.triangulation": ("geodesics.repair.decimation", "geodesics.repair.triangulation"),
     "gmds.truth_files": ("gmds.benchmarking.truth_files",),
     "gmds.upsampling": ("gmds.spectral.sample_maps",),
     "gmds.views": ("gmds.pictures.camera",),

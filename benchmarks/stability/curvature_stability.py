@@ -19,12 +19,13 @@ from numpy.typing import NDArray
 
 from benchmarks.places import RESULTS
 from geodesics import DiffusionDistance, Mesh, Metric, SurfacePoints, eigenpairs, read_mesh
-from geodesics.curvature import COARSE, SMOOTHING, angle_defect, gaussian_curvature, smoothed_density
+from geodesics.curvature import angle_defect, gaussian_curvature, smoothed_density
 from geodesics.delaunay import intrinsic_delaunay
 from geodesics.metric import conformal
 from geodesics.metrics._regularised import regularised
 from geodesics.one_ring import one_ring_curvature
 from geodesics.repair.remeshing import remesh
+from geodesics.smoothing import DEFAULT, FIRST_LOOK
 from geodesics.topology.components import boundary_vertices
 
 Array = NDArray[np.float64]
@@ -57,7 +58,7 @@ ESTIMATORS: dict[str, Estimator | None] = {
     "fixed time 3e-3": fixed_time(3e-3),
     "local time 1e-3": lambda mesh: gaussian_curvature(mesh, 1e-3),
     "local time 2e-3": lambda mesh: gaussian_curvature(mesh, 2e-3),
-    f"**local time {SMOOTHING:g} (default)**": gaussian_curvature,
+    f"**local time {DEFAULT:g} (default)**": gaussian_curvature,
     "local time 8e-3": lambda mesh: gaussian_curvature(mesh, 8e-3),
     "local time 1.6e-2": lambda mesh: gaussian_curvature(mesh, 1.6e-2),
 }
@@ -146,7 +147,7 @@ scale-invariant Laplacian (eps = 4 pi / area) when the same surface is remeshed 
 8,000 vertices).
 On pairs with parts scaled and remeshed: change of eigenvalues, of diffusion distances (time 0.003, rms) and of |K| dA
 at 500 true pairs (median). "Fixed time": one implicit heat step of that share of the area. "Local time": that share of
-the area of the sphere of the same curvature, from a look at K with fixed time {COARSE:g}.
+the area of the sphere of the same curvature, from a look at K with fixed time {FIRST_LOOK:g}.
 
 Shapes on which the constants were chosen:
 

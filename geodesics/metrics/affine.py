@@ -11,10 +11,11 @@ from geodesics.intrinsic import vertex_sums
 from geodesics.mesh import Mesh
 from geodesics.metric import Metric
 from geodesics.metrics.equi_affine import equi_affine_tensor, metric_of_lengths, shared_lengths
+from geodesics.smoothing import EQUI_AFFINE
 from geodesics.topology.components import boundary_vertices
 
 
-def affine(mesh: Mesh, *, regularisation: float = 1.0, smoothing: float = 2e-2) -> Metric:
+def affine(mesh: Mesh, *, regularisation: float = 1.0, smoothing: float = EQUI_AFFINE) -> Metric:
     """The metric |K^eq| g^eq (sec. 2), K^eq the Gaussian curvature of the equi-affine metric g^eq.
 
     |K^eq| is regularised as |K| is below (2.1), with the equi-affine area. Invariant to affine maps as far as

@@ -10,6 +10,7 @@ from geodesics.curvature import vertex_normals
 from geodesics.intrinsic import vertex_sums
 from geodesics.mesh import Mesh
 from geodesics.metric import Metric
+from geodesics.topology.edges import edge_keys
 
 
 def equi_affine(mesh: Mesh, *, regularisation: float = 0.05) -> Metric:
@@ -63,7 +64,7 @@ def shared_lengths(faces: Integers, l_sq: Floats, n: int) -> Floats:
 
     Angles add up round a vertex only then.
     """
-    i, j = faces[:, [1, 2, 0]], faces[:, [2, 0, 1]]
-    edge = np.unique((np.minimum(i, j) * n + np.maximum(i, j)).ravel(), return_inverse=True)[1].ravel()
+    keys = edge_keys(faces[:, [1, 2, 0]], faces[:, [2, 0, 1]], n)
+    edge = np.unique(keys, return_inverse=True)[1].ravel()
     mean = np.bincount(edge, np.sqrt(l_sq).ravel()) / np.bincount(edge)
     return (mean[edge] ** 2).reshape(-1, 3)

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from geodesics.curvature import SMOOTHING, gaussian_curvature
+from geodesics.curvature import gaussian_curvature
 from geodesics.mesh import Mesh
 from geodesics.metric import Metric, conformal
 from geodesics.metrics._regularised import regularised
+from geodesics.smoothing import DEFAULT
 
 
 def scale_invariant(
-    mesh: Mesh, *, exponent: float = 1.0, regularisation: float = 1.0, smoothing: float = SMOOTHING
+    mesh: Mesh, *, exponent: float = 1.0, regularisation: float = 1.0, smoothing: float = DEFAULT
 ) -> Metric:
     """The metric |K|^a g (eq. (2.1), Theorem 2.1), regularised as (K^2 + eps^2)^(a/2) g.
 

@@ -1,4 +1,12 @@
-"""A coarser mesh of the same surface."""
+"""A coarser mesh of the same surface, in one of four ways.
+
+| function | made for | method | on a surface that it cannot reduce |
+|---|---|---|---|
+| `decimate` | users, who keep the mesh | quadric collapses, with index arrays between old and new | raises |
+| `decimated` | computations on a coarse copy | collapses of the shortest edges | None |
+| `clustered` | drawings of any mesh | vertices of one grid cell become one | there is none |
+| `collapse` | even triangles | collapses, then edge flips and smoothing | callers give manifolds |
+"""
 
 from __future__ import annotations
 
@@ -7,7 +15,10 @@ import numpy as np
 from geodesics.arrays import Floats, Integers
 from geodesics.errors import NotManifold
 from geodesics.mesh import Mesh
+from geodesics.points import SurfacePoints
 from geodesics.repair.repairing import Repaired, inverse_index, repair
+from geodesics.repair.triangulation import flip_towards_delaunay
+from geodesics.topology.components import boundary_vertices
 from geodesics.topology.edges import edges, proper_faces
 
 
@@ -22,8 +33,8 @@ def decimate(mesh: Mesh, n_faces: int) -> Repaired:
     if not 4 <= n_faces <= mesh.n_faces:
         raise ValueError(f"n_faces must be from 4 to the {mesh.n_faces} of the mesh, not {n_faces}")
     start = repair(mesh)
-    _refuse_branching(start.mesh)
-    center, size = _frame(start.mesh)
+    refuse_branching(start.mesh)
+    center, size = center_and_size(start.mesh)
     v = (start.mesh.vertices - center) / size  # a unit-sized copy: quadrics do not underflow at any scale
     u, g, face, vertex = igl.qslim(v, start.mesh.faces.astype(np.int32), int(n_faces), False)
     vertex, face = start.vertex[vertex], start.face[face]
@@ -31,13 +42,14 @@ def decimate(mesh: Mesh, n_faces: int) -> Repaired:
     return Repaired(Mesh(u * size + center, g), vertex, face, start.notes, *back)
 
 
-def _frame(mesh: Mesh) -> tuple[Floats, float]:
+def center_and_size(mesh: Mesh) -> tuple[Floats, float]:
     """Center and size of the vertices that lie on faces."""
     used = mesh.vertices[np.unique(mesh.faces)]
     return used.mean(axis=0), float(np.ptp(used, axis=0).max())
 
 
-def _refuse_branching(mesh: Mesh) -> None:
+def refuse_branching(mesh: Mesh) -> None:
+    """Raise `NotManifold` (E110) when an edge has more than two faces."""
     table = edges(mesh)
     many = np.flatnonzero(table.n_faces > 2)
     if len(many):
@@ -87,3 +99,36 @@ def clustered(mesh: Mesh, n_vertices: int) -> Mesh:
 def _cells(v: Floats, finer: int) -> Integers:
     """The number of the cell of each of the points (n, 3) in [0, 1], in a grid of `finer` cells a side."""
     return np.minimum((v * finer).astype(np.int64), finer - 1) @ [1, finer, finer * finer]
+
+
+def collapse(mesh: Mesh, n_vertices: int, *, adaptive: bool = False) -> tuple[Floats, Integers]:
+    """Vertices (about n_vertices, 3) and faces of an even triangulation near the mesh, shortest edges collapsed first.
+
+    `adaptive` collapses first what changes the surface least (quadric error, Garland and Heckbert 1997): triangles stay
+    small where the surface is thin or sharply bent. Exactly `n_vertices` on a closed surface of genus 0. Afterwards
+    edges are flipped towards Delaunay and vertices moved to the middle of their neighbours; they lie near the surface,
+    not on it.
+    """
+    import igl
+
+    closed_faces = mesh.n_faces - 2 * (mesh.n_vertices - n_vertices)
+    vertices, faces = np.asfortranarray(mesh.vertices), np.asfortranarray(mesh.faces.astype(np.int32))
+    if adaptive:
+        size = np.ptp(vertices, axis=0).max()  # a surface of any size: quadrics are compared with absolute numbers
+        v, f = igl.qslim(np.asfortranarray(vertices / size), faces, int(closed_faces))[:2]
+        v = size * v
+    else:
+        v, f = igl.decimate(vertices, faces, int(closed_faces))[:2]
+    v, f = np.ascontiguousarray(v), np.ascontiguousarray(f, dtype=np.int64)
+    inside = ~boundary_vertices(Mesh(v, f))
+    for _ in range(3):
+        f = flip_towards_delaunay(v, f)
+        v[inside] = SurfacePoints.closest(mesh, _towards_neighbours(v, f)[inside]).positions
+    return v, flip_towards_delaunay(v, f)
+
+
+def _towards_neighbours(v: Floats, f: Integers) -> Floats:
+    """Vertices moved half way to the mean of the centres of their faces."""
+    centres, count = np.zeros_like(v), np.bincount(f.ravel(), minlength=len(v))
+    np.add.at(centres, f.ravel(), np.repeat(v[f].mean(axis=1), 3, axis=0))
+    return 0.5 * (v + centres / np.maximum(count, 1)[:, None])

@@ -7,7 +7,7 @@ import numpy as np
 from geodesics.errors import MeshError
 from geodesics.mesh import Mesh
 from geodesics.repair._meshlab import apply_filter
-from geodesics.repair.decimation import _frame, _refuse_branching
+from geodesics.repair.decimation import center_and_size, refuse_branching
 from geodesics.repair.repairing import repair
 
 
@@ -19,7 +19,7 @@ def remesh(mesh: Mesh, target_vertices: int, *, iterations: int = 10) -> Mesh:
     """
     if target_vertices < 4:
         raise ValueError(f"target_vertices must be at least 4, not {target_vertices}")
-    center, size = _frame(mesh)
+    center, size = center_and_size(mesh)
     unit = (mesh.vertices - center) / size
     a, b, c = unit[mesh.faces.T]
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
@@ -52,8 +52,8 @@ def fill_holes(mesh: Mesh, max_edges: int = 1000) -> Mesh:
     Vertices and existing faces stay as they are; the new faces come last. Raises `MissingExtra`, and `NotManifold`
     (E110) for edges of more than two faces.
     """
-    _refuse_branching(mesh)
-    center, size = _frame(mesh)
+    refuse_branching(mesh)
+    center, size = center_and_size(mesh)
     unit = (mesh.vertices - center) / size
     below = int(max_edges) + 1  # meshlab closes holes of fewer edges than that
     v, f = apply_filter("meshing_close_holes", unit, mesh.faces, maxholesize=below, selfintersection=False)

@@ -10,13 +10,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geodesics import intrinsic
-from geodesics.arrays import Bools, Floats, Integers
+from geodesics.arrays import Floats, Integers
 from geodesics.check import NAMED, repeated_faces
 from geodesics.errors import Note
 from geodesics.mesh import Mesh
 from geodesics.repair.splitting import split
-from geodesics.topology.components import vertex_components
+from geodesics.topology.components import largest_component
 from geodesics.topology.edges import degenerate_faces
 from geodesics.topology.orientation import orient_faces
 
@@ -68,7 +67,7 @@ def repair(mesh: Mesh, *, weld: bool = False, cut: bool = False, largest: bool =
         _note(notes, "W213", doubled, "vertices doubled where more than two faces or several fans met")
         vertex, clean = vertex[copies], apart
     if largest:
-        inside = _largest(clean)
+        inside = largest_component(clean)
         _note(notes, "W216", kept[~inside], "faces of other components removed")
         kept = kept[inside]
         vertex, clean = _compact(vertex, clean.vertices, clean.faces[inside])
@@ -90,13 +89,6 @@ def _compact(vertex: Integers, positions: Floats, faces: Integers) -> tuple[Inte
     """The vertices that faces use, by their names in `vertex`, and the mesh of only these."""
     used, compact = np.unique(faces, return_inverse=True)
     return vertex[used], Mesh(positions[used], compact.reshape(-1, 3))
-
-
-def _largest(mesh: Mesh) -> Bools:
-    """Faces (m,) of the component with the largest area."""
-    part = vertex_components(mesh)[mesh.faces[:, 0]]
-    area = intrinsic.areas(intrinsic.squared_lengths(mesh.vertices, mesh.faces))
-    return np.asarray(part == np.bincount(part, weights=area).argmax())
 
 
 def _note(notes: list[Note], code: str, where: Integers, sentence: str) -> None:

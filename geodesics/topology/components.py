@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 
-from geodesics.arrays import Bools, Integers
+from geodesics import intrinsic
+from geodesics.arrays import Bools, Floats, Integers
 from geodesics.caching import memoized
 from geodesics.mesh import Mesh
-from geodesics.topology.edges import components, proper_faces
+from geodesics.topology.edges import components, edge_ends, edge_keys, proper_faces
 
 
 @memoized
 def boundary_vertices(mesh: Mesh) -> Bools:
     """True where a vertex touches an edge with only one face, shape (n,)."""
     faces = mesh.faces[proper_faces(mesh.faces)]
-    edges = np.sort(faces[:, [[1, 2], [2, 0], [0, 1]]].reshape(-1, 2), axis=1)
-    _, first, count = np.unique(edges[:, 0] * mesh.n_vertices + edges[:, 1], return_index=True, return_counts=True)
+    keys, count = np.unique(edge_keys(faces, np.roll(faces, -1, axis=1), mesh.n_vertices), return_counts=True)
     mask = np.zeros(mesh.n_vertices, dtype=bool)
-    mask[edges[first[count == 1]]] = True
+    mask[edge_ends(keys[count == 1], mesh.n_vertices)] = True
     return mask
 
 
@@ -31,3 +31,19 @@ def vertex_components(mesh: Mesh) -> Integers:
     compact = np.full(n, -1, dtype=np.int64)
     compact[used] = np.unique(label[used], return_inverse=True)[1]
     return compact
+
+
+def component_areas(mesh: Mesh) -> Floats:
+    """Area of every component (c,), in the order of their labels, in squared units of the coordinates."""
+    return _summed(mesh, intrinsic.areas(intrinsic.squared_lengths(mesh.vertices, mesh.faces)))
+
+
+def largest_component(mesh: Mesh, weights: Floats | None = None) -> Bools:
+    """Faces (m,) of the largest component: by area, or by the sum of other weights (m,); the first of equal ones."""
+    size = component_areas(mesh) if weights is None else _summed(mesh, weights)
+    return np.asarray(vertex_components(mesh)[mesh.faces[:, 0]] == size.argmax())
+
+
+def _summed(mesh: Mesh, weights: Floats) -> Floats:
+    """Sum of weights (m,) over the faces of every component (c,)."""
+    return np.bincount(vertex_components(mesh)[mesh.faces[:, 0]], weights=weights).astype(np.float64, copy=False)

@@ -28,10 +28,26 @@ class Edges:
     def pairs(self) -> tuple[Integers, Integers]:
         """For each edge of exactly two faces its two sides, as flat indices 3 * face + k into `of_side`."""
         side = np.flatnonzero(self.of_side.ravel() >= 0)
-        side = side[np.argsort(self.of_side.ravel()[side], kind="stable")]
-        first = np.cumsum(self.n_faces) - self.n_faces
-        two = first[self.n_faces == 2]
-        return side[two], side[two + 1]
+        first, second = twice_given(self.of_side.ravel()[side])
+        return side[first], side[second]
+
+
+def edge_keys(start: Integers, end: Integers, n: int) -> Integers:
+    """One number for each undirected edge between vertices below n: equal for both directions, ordered as its ends."""
+    return np.minimum(start, end) * n + np.maximum(start, end)
+
+
+def edge_ends(keys: Integers, n: int) -> Integers:
+    """The two vertices (..., 2) of each of the `edge_keys`, in ascending order."""
+    return np.stack([keys // n, keys % n], axis=-1)
+
+
+def twice_given(keys: Integers) -> tuple[Integers, Integers]:
+    """Indices (k,) of the first and of the second of the keys that occur exactly twice, by ascending key."""
+    order = np.argsort(keys, kind="stable")
+    first, count = np.unique(keys[order], return_index=True, return_counts=True)[1:]
+    two = first[count == 2]
+    return order[two], order[two + 1]
 
 
 @memoized
@@ -39,12 +55,11 @@ def edges(mesh: Mesh) -> Edges:
     """The edge table of a mesh."""
     a, b = mesh.faces, np.roll(mesh.faces, -1, axis=1)
     sound = ~degenerate_faces(mesh)
-    key = np.minimum(a, b) * mesh.n_vertices + np.maximum(a, b)
+    key = edge_keys(a, b, mesh.n_vertices)
     unique, inverse, count = np.unique(key[sound], return_inverse=True, return_counts=True)
     of_side = np.full(mesh.faces.shape, -1, dtype=np.int64)
     of_side[sound] = inverse.reshape(-1, 3)
-    ends = np.stack([unique // mesh.n_vertices, unique % mesh.n_vertices], axis=1)
-    return Edges(ends, of_side, a < b, count)
+    return Edges(edge_ends(unique, mesh.n_vertices), of_side, a < b, count)
 
 
 def degenerate_faces(mesh: Mesh) -> Bools:

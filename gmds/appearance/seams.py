@@ -9,6 +9,7 @@ from scipy.sparse.csgraph import connected_components
 from geodesics import Mesh, SurfacePoints
 from geodesics.arrays import Bools, Floats, Integers
 from geodesics.closest import closest_weights
+from geodesics.topology.edges import edge_keys
 from gmds.errors import MapError
 from gmds.maps.point_map import PointMap
 
@@ -57,12 +58,11 @@ def _joined(mesh: Mesh, uv: Floats) -> sp.csr_matrix:
     start, end = mesh.faces, np.roll(mesh.faces, -1, axis=1)
     here, there = uv, np.roll(uv, -1, axis=1)
     turned = (start > end)[..., None]
-    low, high = np.minimum(start, end).ravel(), np.maximum(start, end).ravel()
+    key = edge_keys(start, end, mesh.n_vertices).ravel()
     ends = np.concatenate([np.where(turned, there, here), np.where(turned, here, there)], axis=2).reshape(-1, 4)
-    order = np.lexsort((high, low))
+    order = np.argsort(key, kind="stable")
     first, second = order[:-1], order[1:]
-    same = (low[first] == low[second]) & (high[first] == high[second])
-    same &= (np.abs(ends[first] - ends[second]) < SAME).all(axis=1)
+    same = (key[first] == key[second]) & (np.abs(ends[first] - ends[second]) < SAME).all(axis=1)
     a, b = first[same] // 3, second[same] // 3
     graph = sp.csr_matrix((np.ones(len(a), dtype=np.int8), (a, b)), shape=(m, m))
     return sp.csr_matrix(graph + graph.T)

@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from geodesics.smoothing import WHOLE_MATCH
+
 if TYPE_CHECKING:
     from geodesics import Mesh, Metric, Spectrum
 
 METRICS = ("embedded", "scale-invariant", "min-curvature", "equi-affine", "affine")
 DISTANCES = ("biharmonic", "commute-time", "diffusion", "geodesic")
-SMOOTHING = 4e-2  # of the curvature: alone, the metric wants large features (chosen on development_pairs.py)
 LOSSES = ("least-squares", "huber", "power", "minimax")
 
 metric_option = click.option("--metric", type=click.Choice(METRICS), help="Metric in which distances are measured.")
@@ -26,7 +27,7 @@ def chosen_metric(name: str) -> Callable[[Mesh], Metric]:
     import geodesics
 
     measure: Callable[..., Metric] = getattr(geodesics, name.replace("-", "_"))
-    return functools.partial(measure, smoothing=SMOOTHING) if name == "scale-invariant" else measure
+    return functools.partial(measure, smoothing=WHOLE_MATCH) if name == "scale-invariant" else measure
 
 
 def chosen_spectrum(metric: str, mesh: Mesh) -> Spectrum:

@@ -6,7 +6,7 @@ import numpy as np
 
 from geodesics import Mesh, SurfacePoints
 from geodesics.arrays import Integers
-from geodesics.topology.components import vertex_components
+from geodesics.topology.components import largest_component
 from gmds.deformations.limbs import edge_distances
 
 
@@ -25,8 +25,7 @@ def holes(mesh: Mesh, count: int = 5, *, radius: float = 0.05, rng: int = 0) -> 
     faces = _without_bow_ties(faces, mesh.faces)
     if len(faces) == 0:
         raise ValueError(f"{count} holes of radius {radius} leave nothing; ask for fewer or smaller ones")
-    label = vertex_components(Mesh(mesh.vertices, faces))[faces[:, 0]]
-    faces = faces[label == np.bincount(label).argmax()]
+    faces = faces[largest_component(Mesh(mesh.vertices, faces), weights=np.ones(len(faces)))]
     kept, renumbered = np.unique(faces, return_inverse=True)
     result = Mesh(mesh.vertices[kept], renumbered.reshape(-1, 3))
     truth = SurfacePoints.closest(result, mesh.vertices)

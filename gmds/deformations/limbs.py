@@ -8,15 +8,16 @@ from scipy.sparse.csgraph import dijkstra
 
 from geodesics import Mesh
 from geodesics.arrays import Floats, Integers
+from geodesics.topology.edges import edge_ends, edge_keys
 
 
 def edge_distances(mesh: Mesh, sources: Integers) -> Floats:
     """Length of the shortest path along edges from each source to every vertex (k, n), +inf where there is none."""
     i, j = mesh.faces.ravel(), mesh.faces[:, [1, 2, 0]].ravel()
     length = np.linalg.norm(mesh.vertices[i] - mesh.vertices[j], axis=1)
-    key, first = np.unique(np.minimum(i, j) * mesh.n_vertices + np.maximum(i, j), return_index=True)
-    ends = key // mesh.n_vertices, key % mesh.n_vertices
-    graph = sp.coo_matrix((length[first], ends), shape=(mesh.n_vertices, mesh.n_vertices)).tocsr()
+    n = mesh.n_vertices
+    keys, first = np.unique(edge_keys(i, j, n), return_index=True)
+    graph = sp.coo_matrix((length[first], edge_ends(keys, n).T), shape=(n, n)).tocsr()
     return np.atleast_2d(dijkstra(graph, directed=False, indices=sources))
 
 

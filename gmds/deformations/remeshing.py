@@ -9,7 +9,7 @@ import numpy as np
 from geodesics import Mesh, SurfacePoints
 from geodesics.arrays import Integers
 from geodesics.errors import NotManifold
-from geodesics.repair.triangulation import collapse
+from geodesics.repair.decimation import collapse
 from gmds.deformations.noise import mean_edge_length
 
 

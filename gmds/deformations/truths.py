@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geodesics import Mesh, SurfacePoints
+from geodesics.barycentric import combination
 
 Deformation = Callable[[Mesh], tuple[Mesh, SurfacePoints]]
 
@@ -31,7 +32,7 @@ def carried(points: SurfacePoints, truth: SurfacePoints) -> SurfacePoints:
     if same_faces and np.array_equal(truth.positions, truth.mesh.vertices):
         return SurfacePoints(truth.mesh, points.face, points.barycentric)
     corners = truth.positions[points.mesh.faces[points.face]]
-    return SurfacePoints.closest(truth.mesh, np.einsum("pk,pkj->pj", points.barycentric, corners))
+    return SurfacePoints.closest(truth.mesh, combination(points.barycentric, corners))
 
 
 def compose(*deformations: Deformation) -> Deformation:

@@ -10,6 +10,7 @@ import numpy as np
 
 from geodesics import scale_invariant
 from geodesics.arrays import Floats
+from geodesics.smoothing import SHARP
 from geodesics.threads import side_by_side
 from gmds import initialization
 from gmds.matching.candidates import MapCandidate, make_candidate
@@ -38,7 +39,6 @@ CURVATURE = 0.77  # correlation of mean curvature below which it is none
 STRESS = 0.2  # relative change of distances above which it is none
 SENSE = 0.5  # share of the area whose orientation a map must treat alike
 SAMPLES = 300
-SMOOTHING = 2e-3  # of the curvature, in the metric that only self-maps are proposed in
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,7 +130,7 @@ def proposed(pair: SurfacePair) -> list[Proposal]:
     what would explain it otherwise, on a surface and itself, is only that they stay where they are.
     """
     source, target = pair.simplified
-    sharp = functools.partial(scale_invariant, smoothing=SMOOTHING)
+    sharp = functools.partial(scale_invariant, smoothing=SHARP)
     views = [
         *zip(pair.source.views, pair.target.views, strict=True),
         (pair.source.view(sharp), pair.target.view(sharp)),

@@ -7,7 +7,8 @@ import scipy.sparse as sp
 
 from geodesics import Mesh
 from geodesics.arrays import Floats, Integers
-from geodesics.topology.components import vertex_components
+from geodesics.topology.components import largest_component
+from geodesics.topology.edges import edge_keys, twice_given
 
 LARGEST_HOLE = 0.5  # perimeter, in units of sqrt(area): what is longer is the edge of the surface
 SPIKE = 0.75  # how far a vertex is from the middle of its neighbours, in units of their r.m.s. distance from it
@@ -34,10 +35,7 @@ def parted(mesh: Mesh) -> Mesh:
     start, end = corner[:, [1, 2, 0]].ravel(), corner[:, [2, 0, 1]].ravel()
     a, b = faces.ravel()[start], faces.ravel()[end]
     low, high = np.where(a < b, start, end), np.where(a < b, end, start)
-    key = np.minimum(a, b) * mesh.n_vertices + np.maximum(a, b)
-    order = np.argsort(key, kind="stable")
-    begin, count = np.unique(key[order], return_index=True, return_counts=True)[1:]
-    one, other = order[begin[count == 2]], order[begin[count == 2] + 1]
+    one, other = twice_given(edge_keys(a, b, mesh.n_vertices))
     links = np.r_[low[one], high[one]], np.r_[low[other], high[other]]
     graph = sp.coo_matrix((np.ones(len(links[0])), links), shape=(3 * m, 3 * m))
     fan = sp.csgraph.connected_components(graph, directed=False)[1]
@@ -50,11 +48,7 @@ def largest_piece(mesh: Mesh) -> Mesh:
 
     Eyes and teeth are surfaces of their own: heat never gets there, and they say nothing about the rest.
     """
-    label = vertex_components(mesh)[mesh.faces[:, 0]]
-    corners = mesh.vertices[mesh.faces]
-    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-    faces = mesh.faces[label == np.bincount(label, weights=area).argmax()]
-    kept, renumbered = np.unique(faces, return_inverse=True)
+    kept, renumbered = np.unique(mesh.faces[largest_component(mesh)], return_inverse=True)
     return Mesh(mesh.vertices[kept], renumbered.reshape(-1, 3))
 
 
@@ -108,8 +102,7 @@ def _mean_of_neighbours(mesh: Mesh) -> sp.csr_matrix:
 def _loops(mesh: Mesh) -> list[Integers]:
     """The boundary as closed loops of vertices in the direction of their faces; only those without a crossing."""
     start, end = mesh.faces[:, [0, 1, 2]].ravel(), mesh.faces[:, [1, 2, 0]].ravel()
-    key = np.minimum(start, end) * mesh.n_vertices + np.maximum(start, end)
-    _, first, count = np.unique(key, return_index=True, return_counts=True)
+    _, first, count = np.unique(edge_keys(start, end, mesh.n_vertices), return_index=True, return_counts=True)
     rim = first[count == 1]
     after: dict[int, int] = {}
     crossing: set[int] = set()

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from geodesics import Mesh, SurfacePoints
 from geodesics.arrays import Floats
-from geodesics.repair.triangulation import collapse
+from geodesics.repair.decimation import collapse
 from gmds.shapes.marching_cubes import fine_surface
 from gmds.shapes.skeleton import Body, Move
 

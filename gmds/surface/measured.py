@@ -13,7 +13,9 @@ from geodesics.arrays import Floats, Integers
 from geodesics.caching import cached_property
 from geodesics.curvature import mean_curvature
 from geodesics.intrinsic import areas, squared_lengths
-from geodesics.topology.components import vertex_components
+from geodesics.smoothing import DETAIL
+from geodesics.smoothing import LARGE_FEATURES as SMOOTHING
+from geodesics.topology.components import component_areas, largest_component
 from geodesics.topology.orientation import orient_faces
 from gmds.errors import TooFewVertices
 from gmds.surface.view import View
@@ -22,8 +24,6 @@ FEWEST_VERTICES = 12  # below this there are not enough eigenfunctions to start 
 EIGENFUNCTIONS = 100
 ROUGH_FUNCTIONS = 60  # in the metrics that only rough maps are made in
 ENOUGH_EIGENFUNCTIONS = 30
-SMOOTHING = 2e-2  # of the curvature: the starts want its large features, not its details
-DETAIL = 1e-3  # smoothing of the mean curvature that tells the chest from the back
 FLAT = 1e-6  # mean curvature of a surface of unit area below which it is rounding
 EXPONENTS = (1.0, 0.5)  # of |K|, beside 0: what suits parts that grew much, a little, and not at all
 
@@ -84,19 +84,16 @@ class Surface:
 
 def measure(mesh: Mesh, *, reflected: bool = False) -> Surface:
     """The largest part of `mesh`, or of its mirror image, ready for matching. Raises `TooFewVertices` (E113)."""
-    label = vertex_components(mesh)
-    of_face = label[mesh.faces[:, 0]]
     area = areas(squared_lengths(mesh.vertices, mesh.faces))
-    size = np.bincount(of_face, area)
-    kept = np.flatnonzero(of_face == size.argmax())
+    kept = np.flatnonzero(largest_component(mesh))
     kept = kept[np.argsort(-area[kept], kind="stable")]  # the order of the faces in the file is to have no say
-    used = np.flatnonzero(label == size.argmax())
+    used = np.unique(mesh.faces[kept])
     if len(used) < FEWEST_VERTICES:
         raise TooFewVertices(
             f"the largest part of {mesh!r} has {len(used)} vertices; matching needs {FEWEST_VERTICES}; refine the mesh"
         )
     shift = mesh.vertices[used].mean(axis=0)
-    place, faces = (mesh.vertices - shift) / np.sqrt(size.max()), mesh.faces[kept]
+    place, faces = (mesh.vertices - shift) / np.sqrt(component_areas(mesh).max()), mesh.faces[kept]
     if reflected:
         place, faces = place * (-1.0, 1.0, 1.0), faces[:, [0, 2, 1]]  # what faced outward still does
     return Surface(mesh, orient_faces(Mesh(place, faces)), kept)

@@ -14,9 +14,10 @@ from generated_shapes import bumpy_sphere, ellipsoid, icosphere, joined
 
 import geodesics
 from geodesics import SurfacePoints, write_mesh
+from geodesics.smoothing import WHOLE_MATCH
 from gmds.appearance import Look, read_look, write_look
 from gmds.cli import main
-from gmds.cli.choices import METRICS, SMOOTHING
+from gmds.cli.choices import METRICS
 from gmds.correspondence import Correspondence
 from gmds.files.values import BadValuesFile, read_values
 
@@ -74,7 +75,7 @@ def test_distances_are_those_of_the_library(file: Path) -> None:
 def test_spectral_distances_in_another_metric(file: Path, name: str) -> None:
     out = file.with_suffix(".npz")
     done("distances", file, "--from", 3, "--metric", "scale-invariant", "--distance", name, "-o", out)
-    spectrum = geodesics.eigenpairs(geodesics.scale_invariant(MESH, smoothing=SMOOTHING), 100)
+    spectrum = geodesics.eigenpairs(geodesics.scale_invariant(MESH, smoothing=WHOLE_MATCH), 100)
     distance: dict[str, Any] = {
         "biharmonic": geodesics.BiharmonicDistance,
         "commute-time": geodesics.CommuteTimeDistance,
