@@ -20,7 +20,7 @@ from pathlib import Path
 
 from benchmarks.accuracy.halves import DEVELOPMENT, HALVES, half_of, pairs_of
 from benchmarks.places import RESULTS, ROOT
-from gmds.benchmarking.datasets import Pair
+from gmds.benchmarking.pairs import Pair
 from gmds.benchmarking.run import FIGURES, BenchmarkRow, Matcher, benchmark
 from gmds.files.table import read_table, write_table
 from gmds.shapes import quadruped

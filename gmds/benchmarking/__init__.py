@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from geodesics.moved_paths import names_moved
-from gmds.benchmarking.datasets import Pair, dataset_pairs
+from gmds.benchmarking.datasets import dataset_pairs
+from gmds.benchmarking.pairs import Pair
 from gmds.benchmarking.run import BenchmarkRow, benchmark, means, write_csv
 from gmds.moved_paths import MOVED
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from geodesics.arrays import Floats
 from geodesics.mesh import Mesh
-from gmds.benchmarking.datasets import Pair
+from gmds.benchmarking.pairs import Pair
 from gmds.correspondence import Correspondence
 from gmds.evaluation import coverage, geodesic_error, protocol_subset, summary
 from gmds.files.table import write_table

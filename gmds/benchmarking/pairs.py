@@ -1,0 +1,59 @@
+"""Two mesh files with their truth, and the listings that name them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from geodesics.arrays import Integers
+from geodesics.errors import FormatError
+from geodesics.mesh import Mesh
+from geodesics.points import SurfacePoints
+from gmds.files.text import read_text
+
+Truth = tuple[Integers, SurfacePoints, SurfacePoints | None]
+TruthReader = Callable[[Mesh, Mesh], Truth]
+
+LARGEST = 1 << 26  # bytes of a listing
+
+
+class UnknownDataset(FormatError):
+    """A folder that is none of the known benchmarks, or lists pairs that are not there."""
+
+    code = "E230"
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Two mesh files and their truth.
+
+    `truth(source, target)` gives source vertices (p,), p points of the target, and p flipped points, or None for these.
+    `missing()` gives source vertices (q,) that have no counterpart in the target, where the data says so.
+    """
+
+    name: str
+    source: Path
+    target: Path
+    truth: TruthReader
+    group: str = ""
+    missing: Callable[[], Integers] | None = None
+
+
+def listed(file: Path, columns: int) -> list[Sequence[str]]:
+    """The names on each line of a listing, separated by blanks or commas."""
+    rows = [re.split(r"[\s,;]+", line.strip()) for line in listing_text(file).splitlines()]
+    rows = [row for row in rows if row != [""] and not row[0].startswith("#")]
+    for number, row in enumerate(rows, start=1):
+        if len(row) != columns:
+            raise UnknownDataset(f"{file}, entry {number}: {' '.join(row)!r} should be {columns} names")
+    return list(rows)
+
+
+def listing_text(file: Path) -> str:
+    """The content of a listing. Raises `UnknownDataset`, or `OSError` for what is no file."""
+    try:
+        return read_text(file, UnknownDataset, LARGEST)
+    except UnicodeDecodeError as error:
+        raise UnknownDataset(f"{file} is not UTF-8 text ({error})") from error
