@@ -28,7 +28,7 @@ from gmds.cli import main
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 FENCE = re.compile(r"^[ >]*```+(\S*)[^\n]*\n(.*?)^[ >]*```+ *$", re.MULTILINE | re.DOTALL)
 SKIP = "<!-- skip: next "
-SHOWN = {"text", "{eval-rst}", "{toctree}", "{include}"}  # what is there to be read, or makes the page
+SHOWN = {"text", "diff", "{eval-rst}", "{toctree}", "{include}"}  # what is there to be read, or makes the page
 needs_extras = [pytest.importorskip(name) for name in ("matplotlib", "distributed", "plotly")]
 
 

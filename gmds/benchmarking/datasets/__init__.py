@@ -13,7 +13,7 @@ from gmds.benchmarking.datasets.scaled import scaled
 from gmds.benchmarking.datasets.shrec20 import shrec20
 from gmds.benchmarking.pairs import Pair, UnknownDataset
 
-__all__ = ["Pair", "UnknownDataset", "dataset_pairs"]
+__all__ = ["dataset_pairs"]
 
 Reader = Callable[[Path, Path | None], list[Pair] | None]
 
