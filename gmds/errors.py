@@ -12,7 +12,7 @@ class TooFewVertices(MeshError):
 
 
 class LandmarkError(ValueError):
-    """Landmarks that can not be used; `code` says why and the message says which.
+    """Landmarks that cannot be used; `code` says why and the message says which.
 
     E300 form, E301 no such vertex, E302 given twice, E303 unequal counts, E304 on no face, E305 off the surface.
     """
@@ -44,7 +44,7 @@ class UnknownKey(ValueError):
 
 
 class BadSetting(ValueError):
-    """A setting in a file with a value that it can not have, or a file of settings that can not be read."""
+    """A setting in a file with a value that it cannot have, or a file of settings that cannot be read."""
 
     code = "E603"
 
@@ -107,7 +107,7 @@ class SurfaceFileError(FormatError):
 
 
 class BadPairList(FormatError):
-    """A list of pairs of files that can not be read; the message names the line."""
+    """A list of pairs of files that cannot be read; the message names the line."""
 
     code = "E214"
 

@@ -49,7 +49,7 @@ def geodesic_error(
     belong to; None means one truth point for every row. Rows that are not `valid` are judged like all others.
     `distance`: geodesic in the embedded metric unless given (an exact one, say). Each distinct truth point costs one
     march; its distances are linear on faces, except that a mapped point on a face that holds the true point is
-    measured straight. A mapped point that can not be reached from the true one (another component) gets the largest
+    measured straight. A mapped point that cannot be reached from the true one (another component) gets the largest
     distance that can be reached. Raises `MapError` when rows do not fit or the truth is on another mesh.
     """
     points = answer if isinstance(answer, SurfacePoints) else answer.points

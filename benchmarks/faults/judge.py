@@ -10,7 +10,7 @@
 | crash | the process ends: signal, abort, exit; also when the case is run again in a fresh process |
 | hang | more than 10 s of processor time, or 180 s in all, for meshes of at most 1,000 vertices |
 
-Right distances: within 5 % of the reference in the mean (50 % on less than ten vertices); what can not be reached is
+Right distances: within 5 % of the reference in the mean (50 % on less than ten vertices); what cannot be reached is
 +inf, NaN, negative, or beyond any distance. A right Laplacian: finite, symmetric, constants in its kernel, coordinates
 with an energy of up to twice the area, leaving out vertices on no face. A right file: its own arrays in its own order,
 up to the rounding of float32; STL by the corners of faces. Nobody has to refuse what this project refuses: an input

@@ -135,7 +135,7 @@ def run(
 
 
 def in_folder(folder: Path, template: Path) -> Iterator[tuple[str, Mesh]]:
-    """The meshes of a folder but for the template; those that can not be read are told and left out."""
+    """The meshes of a folder but for the template; those that cannot be read are told and left out."""
     for path in mesh_files(folder):
         if path.resolve() != template.resolve():
             try:

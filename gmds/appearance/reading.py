@@ -19,7 +19,7 @@ KINDS = ("obj", "ply", "glb")
 
 
 class BadLook(FormatError):
-    """A file whose colours or texture can not be used."""
+    """A file whose colours or texture cannot be used."""
 
     code = "E217"
 
@@ -39,7 +39,7 @@ def read_look(path: Path, mesh: Mesh, texture: Path | None = None) -> Look:
 
     No file is opened that was not named: what an OBJ says about materials is not followed, a GLB has its image inside.
     Raises `BadLook` (E217) where faces are in another order than in the file, as with several materials, or for an
-    image that can not be read, `MissingExtra` without Pillow.
+    image that cannot be read, `MissingExtra` without Pillow.
     """
     data = read_bytes(path)
     kind = sniff(data, path)
@@ -70,7 +70,7 @@ def _loaded(data: bytes, kind: str, path: Path) -> Any:
     try:
         loaded = trimesh.load(io.BytesIO(data), file_type=kind, process=False)
     except Exception as error:  # whatever a reader of others raises on what it does not know
-        raise BadLook(f"{path}: its colours can not be read ({type(error).__name__}: {error})") from error
+        raise BadLook(f"{path}: its colours cannot be read ({type(error).__name__}: {error})") from error
     if isinstance(loaded, trimesh.Scene):
         loaded = loaded.to_geometry()
     return loaded

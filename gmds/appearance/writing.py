@@ -28,7 +28,7 @@ def write_look(path: Path, mesh: Mesh, look: Look, values: Values | None = None)
     .obj: colours behind positions, or texture coordinates, with a .mtl and a .png beside it; vertices stay as they are.
     .glb: colours, or texture coordinates and the image; vertices are doubled along the seams of the texture, as the
     format asks for. .ply: colours and values. .vtp (ParaView): values, and colours as one of them. Raises `BadLook`
-    (E217) for what a format can not keep.
+    (E217) for what a format cannot keep.
     """
     ending, values = path.suffix.lower(), values or {}
     if look.uv is not None and ending not in (".obj", ".glb"):

@@ -48,7 +48,7 @@ class Collection:
         """From a folder of meshes, a list file (see `read_list`), paths, or a mapping from names to meshes or paths.
 
         `pairs`: which to match, `all_pairs` unless the list says so. Raises `FormatError` or `ValueError` when there
-        is nothing to match or a name is unknown, `OSError` when a folder or list can not be read.
+        is nothing to match or a name is unknown, `OSError` when a folder or list cannot be read.
         """
         listed: Pairs | None = None
         if isinstance(given, Mapping):
@@ -104,7 +104,7 @@ def _plain(text: str) -> str:
 
 def _checked(name: str) -> str:
     if name != _plain(name):
-        raise ValueError(f"{name!r} can not be part of the name of a file A__B.npz; {_plain(name)!r} could")
+        raise ValueError(f"{name!r} cannot be part of the name of a file A__B.npz; {_plain(name)!r} could")
     return name
 
 

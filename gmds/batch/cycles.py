@@ -131,7 +131,7 @@ def _judged(route: Route, home: bool, load: Callable[[Pair], CarriedMap]) -> Cyc
 
 
 def _cycles(known: set[Pair], triangles: Iterable[Route]) -> Iterator[tuple[Route, bool]]:
-    """The cycles in each triangle: around it both ways, or where that can not be done, one way beside the other."""
+    """The cycles in each triangle: around it both ways, or where that cannot be done, one way beside the other."""
     for a, b, c in triangles:
         ways: tuple[Route, Route] = (a, b, c), (a, c, b)
         around = [route for route in ways if {*itertools.pairwise((*route, a))} <= known]

@@ -17,7 +17,7 @@ GRACE = 5.0  # seconds, beyond half the limit, after which the process is ended
 def deadline(seconds: float | None, path: Path) -> Iterator[Callable[[str, float], None] | None]:
     """A progress function that raises `PairTimeout` (E504) when `seconds` have passed, None for no limit.
 
-    Code that reports no progress can not be stopped that way. When half the limit and `GRACE` seconds more have passed,
+    Code that reports no progress cannot be stopped that way. When half the limit and `GRACE` seconds more have passed,
     a thread without Python in it ends the process and leaves a mark beside `path`; a scheduler sees that the worker
     died and sends the pair to another one, which finds the mark and raises `PairTimeout` at once.
     """

@@ -21,7 +21,7 @@ HUMP = 12  # landmark of camels that sits where other animals have nothing
 
 
 class BadTruth(FormatError):
-    """A truth file that can not be read or does not fit its mesh."""
+    """A truth file that cannot be read or does not fit its mesh."""
 
     code = "E231"
 

@@ -106,11 +106,11 @@ def _check(path: Path, name: str, param: click.Parameter, value: Any) -> None:
             of = "a list of " if listed else ""
             _refuse(path, name, f"must be {of}{_WORDS[kind]}, not {value!r:.40}")
         if isinstance(param.type, click.Choice) and one not in param.type.choices:
-            _refuse(path, name, f"can not be {one!r:.40}{did_you_mean(one, param.type.choices)}")
+            _refuse(path, name, f"cannot be {one!r:.40}{did_you_mean(one, param.type.choices)}")
         try:
             param.type.convert(one, param, None)
         except click.BadParameter as error:
-            _refuse(path, name, f"can not be {one!r:.40}: {error.message}")
+            _refuse(path, name, f"cannot be {one!r:.40}: {error.message}")
 
 
 _WORDS: dict[type, str] = {bool: "true or false", int: "a whole number", float: "a number", str: "text in quotes"}

@@ -60,7 +60,7 @@ def compare_files(paths: Sequence[Path], store: Path, *, embed: int = 0, progres
     """The shapes in mesh files, compared; `store` is a folder that keeps what was computed, for the next time.
 
     Every pair gets its bound; the pairs of each shape with the `embed` others of least bound get a distortion as well.
-    A file that can not be read or measured is left out and named in `failures`.
+    A file that cannot be read or measured is left out and named in `failures`.
     """
     report = progress or (lambda stage, fraction: None)
     store.mkdir(parents=True, exist_ok=True)

@@ -18,7 +18,7 @@ KINDS = "biufcU"  # truth values, numbers, words
 
 
 class BadValuesFile(FormatError):
-    """A file of values that can not be read, or that has another number of rows than the mesh has vertices."""
+    """A file of values that cannot be read, or that has another number of rows than the mesh has vertices."""
 
     code = "E307"
 

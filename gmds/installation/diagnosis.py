@@ -82,7 +82,7 @@ def _package(needed: str, advice: str) -> Finding:
     error = _import_error(MODULES.get(name, name))
     if error:
         return Finding(
-            name, "problem", f"{version}, can not be imported: {error}", f"pip install --force-reinstall {name}"
+            name, "problem", f"{version}, cannot be imported: {error}", f"pip install --force-reinstall {name}"
         )
     return Finding(name, "ok", version)
 
@@ -122,7 +122,7 @@ def _kernels() -> Finding:
     folder = cache_folder()
     if folder is None or not os.access(folder, os.W_OK):
         advice = "set NUMBA_CACHE_DIR to a folder that can be written, else every process compiles for itself"
-        return Finding("compiled kernels", "problem", f"can not be kept in {folder or 'any folder'}", advice)
+        return Finding("compiled kernels", "problem", f"cannot be kept in {folder or 'any folder'}", advice)
     if os.stat(folder).st_mode & stat.S_IWOTH:
         advice = f"they are code: chmod o-w '{folder}', or set NUMBA_CACHE_DIR to a folder of your own"
         return Finding("compiled kernels", "problem", f"anyone may write in {folder}", advice)

@@ -23,7 +23,7 @@ WORKER = Path(__file__).with_name("offscreen_worker.py")
 def offscreen(shots: Sequence[Shot]) -> list[Floats]:
     """Images (height, width, 3) in [0, 1] of the shots, drawn by pyvista in another process.
 
-    Raises `RenderingError` (E510), which says what to do, where pyvista is not installed or can not draw.
+    Raises `RenderingError` (E510), which says what to do, where pyvista is not installed or cannot draw.
     """
     if not _installed():
         raise RenderingError("pyvista is not installed; install it with: pip install 'gmds[viz]'")
@@ -50,7 +50,7 @@ def _run(command: list[str]) -> None:
         lines = [line.strip() for line in done.stderr.splitlines() if line.strip()]
         how = f"signal {-done.returncode}" if done.returncode < 0 else f"exit code {done.returncode}"
         why = f"{how}: {lines[-1][:200]}" if lines else how
-        raise RenderingError(f"pyvista can not draw here ({why}); it needs a graphics driver, EGL or OSMesa")
+        raise RenderingError(f"pyvista cannot draw here ({why}); it needs a graphics driver, EGL or OSMesa")
 
 
 def _hand_over(shot: Shot, path: Path) -> None:

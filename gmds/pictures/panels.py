@@ -72,7 +72,7 @@ def write_picture(
     is given, by the first of them that can. Returns why it was not the first one, or nothing.
 
     Raises `MissingExtra` without the extra `viz`, `PictureFormat` (E218) for another ending, `RenderingError` (E510)
-    when a renderer that was given can not draw, `OSError` when the file can not be written.
+    when a renderer that was given cannot draw, `OSError` when the file cannot be written.
     """
     panels = map_panels(answer, errors, names=names, up=up, pixels=pixels)
     return _write(path, panels, title, renderer)

@@ -83,7 +83,7 @@ function fail(message) {
 async function start() {
   if (!("DecompressionStream" in window)) return fail("This page needs a newer browser: one from 2023 or later.");
   if (!document.createElement("canvas").getContext("webgl")) {
-    return fail("This browser can not draw in 3-D (WebGL is off). The figures and tables below can still be read.");
+    return fail("This browser cannot draw in 3-D (WebGL is off). The figures and tables below can still be read.");
   }
   const [data] = await Promise.all([unpackedData("data"), runLibrary("library")]);
   const page = new Page(data);

@@ -30,7 +30,7 @@ def _table(answer: PointMap) -> str:
 
 
 def _picture(answer: PointMap) -> str:
-    """The picture as an element of a page; nothing where it can not be drawn, or not soon."""
+    """The picture as an element of a page; nothing where it cannot be drawn, or not soon."""
     if answer.source.n_faces + answer.target.n_faces > LARGE:
         return ""
     try:

@@ -3,7 +3,7 @@
 
 const LEVEL = { up: { x: 0, y: 1, z: 0 }, center: { x: 0, y: 0, z: 0 }, eye: { x: 0, y: 0, z: 1.4 } };
 const FILLED = 0.9; // of the panel
-const HIDDEN = 0.03; // of the surface's size: so far behind what is in front of it, a point can not be seen
+const HIDDEN = 0.03; // of the surface's size: so far behind what is in front of it, a point cannot be seen
 
 // an axis of which nothing is drawn (one that is not `visible` has its texts made all the same)
 const BARE = { title: { text: "" }, tickvals: [], ticks: "", showticklabels: false, showgrid: false, showline: false,

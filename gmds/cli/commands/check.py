@@ -27,7 +27,7 @@ def command(mesh: Path, as_json: bool) -> None:
 
     A line for each finding, warnings first: a code that does not change between versions, how many faces or vertices
     are meant, the first of them (counted from 0), and what mends it: yes (gmds repair), a further option of it, or no.
-    A mesh that can not be used at all ends with exit code 1.
+    A mesh that cannot be used at all ends with exit code 1.
     """
     from geodesics.check import check
     from geodesics.io import read_with_notes

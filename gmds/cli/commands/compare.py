@@ -35,7 +35,7 @@ def command(folder: Path, output: Path, embed: int, as_json: bool) -> None:
     The output folder holds matrix.csv; nearest.csv (for every shape the nearest others, with bound and distortion);
     tree.csv (a merge of two clusters a line; clusters are numbered after the shapes); map.csv (a point in
     the plane for every shape); a picture and a page with all of these. What was computed is kept there, and a run that
-    was interrupted goes on. Files that can not be used are named on stderr and left out; the exit code is then 3.
+    was interrupted goes on. Files that cannot be used are named on stderr and left out; the exit code is then 3.
     """
     from gmds.comparison.clustering import families, neighbour_accuracy
     from gmds.comparison.folder import compare_files

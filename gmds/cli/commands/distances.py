@@ -51,7 +51,7 @@ def command(
 
     farthest:COUNT stands for that many vertices, each the farthest from those before it.
     A .npz holds `distance`, a row for every vertex given, and `points`, these vertices; a .csv has a line for every
-    vertex of the mesh. What can not be reached is infinitely far. The picture shows the distance to the nearest of the
+    vertex of the mesh. What cannot be reached is infinitely far. The picture shows the distance to the nearest of the
     vertices given. Metrics and diffusion time are those of
     `gmds match --metric --distance`.
     """

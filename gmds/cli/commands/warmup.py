@@ -27,4 +27,4 @@ def command(as_json: bool) -> None:
         warmth = warm_up(progress)
     emit(asdict(warmth), as_json)
     if warmth.folder is None:
-        note("compiled kernels can not be kept here; set NUMBA_CACHE_DIR to a folder that can be written")
+        note("compiled kernels cannot be kept here; set NUMBA_CACHE_DIR to a folder that can be written")

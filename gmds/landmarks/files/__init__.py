@@ -56,7 +56,7 @@ def ending(path: str | os.PathLike[str]) -> str:
 def read_landmarks(path: str | os.PathLike[str], space: Space = "LPS") -> Landmarks:
     """The landmarks in a file, in the frame `space`; the ending says which format it is.
 
-    Raises `BadLandmarkFile` (E306) naming the line or the control point, and `OSError` when it can not be opened.
+    Raises `BadLandmarkFile` (E306) naming the line or the control point, and `OSError` when it cannot be opened.
     """
     parse, _ = _FORMATS[ending(path)]
     return parse(Path(path), landmark_text(Path(path)), space)

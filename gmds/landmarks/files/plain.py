@@ -53,7 +53,7 @@ def parse_tps(path: Path, text: str, _: Space) -> Landmarks:
 
 
 def tps_text(landmarks: Landmarks, _: Space, __: Columns) -> str:
-    """One specimen; names can not be kept."""
+    """One specimen; names cannot be kept."""
     return "\n".join([f"LM3={len(landmarks)}", *(_words(at) for _, at in _placed(landmarks)), "ID=0"]) + "\n"
 
 
@@ -67,7 +67,7 @@ def parse_vts(path: Path, text: str, _: Space) -> Landmarks:
 
 
 def vts_text(landmarks: Landmarks, _: Space, __: Columns) -> str:
-    """A vertex a line, from 1; names can not be kept."""
+    """A vertex a line, from 1; names cannot be kept."""
     return "".join(f"{vertex + 1}\n" for vertex in landmarks.vertices)
 
 

@@ -85,6 +85,6 @@ class Rows:
             raise BadLandmarkFile(f"{self.path} holds no landmarks")
         if self.missing and not self.named:
             raise BadLandmarkFile(
-                f"{self.path}: landmark {self.missing[0]} has no place, and without names the order can not tell"
+                f"{self.path}: landmark {self.missing[0]} has no place, and without names the order cannot tell"
             )
         return Landmarks(tuple(self.names), self.at, self.named, tuple(self.missing))  # type: ignore[arg-type]

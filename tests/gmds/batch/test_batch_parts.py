@@ -95,7 +95,7 @@ def test_collections(tmp_path: Path) -> None:
         Collection.of({"a": mesh}, [("a", "d")])
     with pytest.raises(ValueError, match="nothing to match: 1 shapes"):
         Collection.of({"a": mesh})
-    with pytest.raises(ValueError, match="'a__b' can not be part"):
+    with pytest.raises(ValueError, match="'a__b' cannot be part"):
         Collection.of({"a__b": mesh, "c": mesh})
     for name in ("x.off", "y.ply"):
         write_mesh(mesh, tmp_path / name)

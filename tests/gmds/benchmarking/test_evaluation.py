@@ -33,7 +33,7 @@ class SphereDistance:
 
 
 class SeparateComponents:
-    """Distance in space within the first `count` vertices; the others can not be reached."""
+    """Distance in space within the first `count` vertices; the others cannot be reached."""
 
     def __init__(self, mesh: Mesh, count: int) -> None:
         self.mesh, self.count = mesh, count
