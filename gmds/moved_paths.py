@@ -60,7 +60,10 @@ MOVED: Mapping[str, tuple[str, ...]] = {
     "gmds.descent": ("gmds.mds.descent",),
     "gmds.describing": ("gmds.provenance",),
     "gmds.diagnosis": ("gmds.installation.diagnosis",),
-    "gmds.elasticity": ("gmds.registration.elasticity",),
+    "gmds.elasticity": (
+        "gmds.registration.laplacian",
+        "gmds.registration.stiffness",
+    ),
     "gmds.extension": ("gmds.spectral.extension",),
     "gmds.frames": ("gmds.maps.vectors",),
     "gmds.functional_maps": ("gmds.spectral.functional_maps",),

@@ -33,7 +33,8 @@ from gmds.matching.candidates import TIME, MapCandidate
 from gmds.matching.evidence import Evidence
 from gmds.matching.pair import SurfacePair
 from gmds.matching.proposals import Proposal
-from gmds.registration.register import Registered, registered
+from gmds.registration.register import Registered, assessed
+from gmds.registration.settings import FULL
 from gmds.surface.measured import EIGENFUNCTIONS, SMOOTHING
 
 EVERY = {"scaled": 1, "faust_5k": 11, "tosca_5k": 11, "tosca_cross_5k": 4}  # steps that meet pairs of both halves
@@ -74,10 +75,10 @@ def changed(changes: Mapping[ModuleType | type, Mapping[str, Any]]) -> Matcher:
 
 def left_as_it_is(pair: SurfacePair, points: geodesics.SurfacePoints) -> Registered:
     """In place of the registration of a map."""
-    return registered(*pair.full, points.positions, growing=True, partial=True)
+    return assessed(*pair.full, points.positions, FULL)
 
 
-def same(best: MapCandidate) -> MapCandidate:
+def same(best: MapCandidate, progress: Callable[[float], None] | None = None) -> MapCandidate:
     """In place of polishing a map."""
     return best
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from geodesics import DiffusionDistance, Distance, SurfacePoints
 from geodesics.arrays import Integers
@@ -13,17 +13,22 @@ from gmds.matching.proposals import Proposal
 from gmds.mds.losses import Loss
 from gmds.mds.problem import Problem
 from gmds.mds.solver import Solution, solve
-from gmds.registration.register import COARSE, FINE, Registered, register
-from gmds.registration.register import registered as as_it_is
+from gmds.registration.register import Registered, assessed, register
+from gmds.registration.settings import FULL, RegistrationSettings
 from gmds.spectral.extension import extend
 from gmds.spectral.refinement import ROUNDS, upsampled
 from gmds.surface.view import View
 
-Measured = tuple[Distance, Distance]
-
 FUNCTIONS = 60  # eigenfunctions of the dense map
 TIME = 3e-3  # of the diffusion distance that the solver compares, in units of the area
 ITERATIONS = 20
+
+
+class GivenDistances(NamedTuple):
+    """Distances on source and target that a user gave, and both surfaces in their metrics."""
+
+    views: tuple[View, View]
+    distances: tuple[Distance, Distance]
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,69 +44,75 @@ class MapCandidate:
 
 
 def make_candidate(
-    pair: SurfacePair,
-    proposal: Proposal,
-    loss: Loss,
-    count: int,
-    given: tuple[tuple[View, View], Measured] | None = None,
+    pair: SurfacePair, proposal: Proposal, loss: Loss, count: int, given: GivenDistances | None = None
 ) -> MapCandidate:
-    """A proposal carried to all vertices: aligned, `count` samples embedded by `solve`, extended, and registered.
+    """A proposal prolonged to all vertices: aligned, `count` samples placed by `solve`, extended, and registered.
 
     Generalised multidimensional scaling compares diffusion distances (3.1) in the metric of the target in which the
-    map keeps area; or, in given views, the distances given, and then that embedding is the answer as it stands.
+    map keeps area; or the distances given, in their metrics, and then that embedding is the answer as it stands.
     """
-    images = lifted(pair, proposal)
+    images = prolonged(pair, proposal)
     if given is None:
         images, view = pair.refiner.aligned(images, range(len(ROUNDS)))
         views = pair.source.regular, view
-        points, solution = placed(pair, images, views, loss, count, None)
+        points, solution = placed(pair, images, views, loss, count, diffusion_distances(*views))
         deformation = registered(pair, points)
         points = deformation.points
     else:
         views, distances = given
         points, solution = placed(pair, upsampled(*views, images), views, loss, count, distances)
-        deformation = as_it_is(*pair.full, points.positions, growing=True, partial=True)
+        deformation = assessed(*pair.full, points.positions, FULL)
     weighed = evidence(pair, views, points, proposal.residuals, deformation.residuals)
     return MapCandidate(pair, points, views, solution, deformation, weighed)
 
 
-def lifted(pair: SurfacePair, proposal: Proposal) -> Integers:
+def prolonged(pair: SurfacePair, proposal: Proposal) -> Integers:
     """For every source vertex the target vertex (n,) that the proposal's deformation brings it closest to."""
     (source, target), simplified = pair.full, pair.simplified[0]
     y = simplified.deformed(proposal.registered.y, source.mesh.vertices)
     return target.usable[target.tree.query(source.moved_features(y))[1]]
 
 
+def diffusion_distances(source: View, target: View) -> tuple[Distance, Distance]:
+    """Diffusion distances (3.1), by as many eigenfunctions in one view as in the other, or equal surfaces differ."""
+    k = common_functions(source, target)
+    return DiffusionDistance(source.first(k).spectrum, TIME), DiffusionDistance(target.first(k).spectrum, TIME)
+
+
+def common_functions(source: View, target: View) -> int:
+    """The number of eigenfunctions of the dense map that both views have."""
+    return min(FUNCTIONS, source.functions.shape[1], target.functions.shape[1])
+
+
 def placed(
-    pair: SurfacePair, images: Integers, views: tuple[View, View], loss: Loss, count: int, distances: Measured | None
+    pair: SurfacePair,
+    images: Integers,
+    views: tuple[View, View],
+    loss: Loss,
+    count: int,
+    distances: tuple[Distance, Distance],
 ) -> tuple[SurfacePoints, Solution]:
     """The map `images` (n,) after generalised multidimensional scaling of `count` samples, extended to every vertex."""
-    ours, theirs = views
-    k = min(FUNCTIONS, ours.functions.shape[1], theirs.functions.shape[1])
-    if distances is None:
-        both = (ours.first(k), theirs.first(k))  # as many in one as in the other, or equal surfaces would differ
-        distances = DiffusionDistance(both[0].spectrum, TIME), DiffusionDistance(both[1].spectrum, TIME)
-    samples = ours.samples(count)
+    source, target = views
+    samples = source.samples(count)
     problem = Problem(distances[0], SurfacePoints.at_vertices(pair.source.mesh, samples), distances[1])
     start = SurfacePoints.at_vertices(pair.target.mesh, images[samples])
     solution = solve(problem, start, loss, max_iterations=ITERATIONS)
-    return extend(ours, theirs, *pair.with_landmarks(samples, solution.points), k), solution
+    with_landmarks = pair.with_landmarks(samples, solution.points)
+    return extend(source, target, *with_landmarks, common_functions(source, target)), solution
 
 
-def registered(
-    pair: SurfacePair, points: SurfacePoints, stages: Sequence[tuple[float, int]] = (COARSE[0], *COARSE, *FINE)
-) -> Registered:
+def registered(pair: SurfacePair, points: SurfacePoints, settings: RegistrationSettings = FULL) -> Registered:
     """The source deformed from where the map to `points` (n,) sends it; left there if that is a congruence already."""
-    source, target = pair.full
     y = points.positions
-    same = as_it_is(source, target, y, growing=True, partial=True)
+    same = assessed(*pair.full, y, settings)
     if same.residuals.is_congruence:
         return replace(same, points=points)
-    return register(source, target, y, stages, growing=True, partial=True)
+    return register(*pair.full, y, settings)
 
 
-def mirrored(best: MapCandidate) -> MapCandidate | None:
-    """The map composed with a reflection of one of the surfaces, if there is one."""
+def mirrored(best: MapCandidate) -> list[MapCandidate]:
+    """The map composed with a reflection of one of the surfaces; none if neither has one."""
     pair = best.pair
     ours, theirs = pair.reflections
     if ours is not None:
@@ -109,8 +120,8 @@ def mirrored(best: MapCandidate) -> MapCandidate | None:
     elif theirs is not None:
         points = SurfacePoints.at_vertices(pair.target.mesh, theirs[best.points.nearest_vertices()])
     else:
-        return None
-    deformation = as_it_is(*pair.full, points.positions, growing=True, partial=True)
+        return []
+    deformation = assessed(*pair.full, points.positions, FULL)
     simplified = Proposal.of(pair, points.positions[pair.simplified[0].origin]).residuals
     weighed = evidence(pair, best.views, points, simplified, deformation.residuals)
-    return replace(best, points=points, deformation=deformation, evidence=weighed)
+    return [replace(best, points=points, deformation=deformation, evidence=weighed)]

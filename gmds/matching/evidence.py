@@ -16,7 +16,7 @@ from gmds.surface.view import View
 
 FUNCTIONS = 40
 SAMPLES = 500  # between which the stress is taken
-LEAST_FOLDED = 1e-3  # share of the area, twice: so much is folded over at a vertex of any triangulation
+LEAST_FOLDED = 1e-3  # twice a share of the area: so much is folded over at a vertex of any triangulation
 
 
 @dataclass(frozen=True)

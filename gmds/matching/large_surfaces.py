@@ -1,4 +1,4 @@
-"""Large surfaces: matched as copies with fewer vertices, and the map carried back to all of them."""
+"""Large surfaces: matched as copies with fewer vertices, and the map prolonged to all of them."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def coarse(surface: Surface) -> Surface:
 
 @dataclass(frozen=True, eq=False)
 class CoarseCopies:
-    """Carries maps of the `copies` of two surfaces, each a copy or the surface itself, to the surfaces."""
+    """The `copies` of two surfaces that are matched in their place, each a copy or the surface itself."""
 
     source: Surface
     target: Surface
@@ -63,26 +63,26 @@ class CoarseCopies:
         )
         return LandmarkConstraints(ours, theirs, landmarks.tolerance)
 
-    def prolonged(self, found: Correspondence) -> Correspondence:
+    def prolonged(self, answer: Correspondence) -> Correspondence:
         """A map between the copies as one between the whole surfaces.
 
         A vertex goes with the point of the copy that it is closest to, and from there to the closest point, in position
         and normal, of the whole target. Candidates go the same way.
         """
-        face, weights, _ = closest_on_triangles(self.source.mesh.vertices, self._places[0], found.source.faces)
-        corners = found.source.faces[face]
-        share = np.einsum("pk,pk->p", weights, found.valid[corners].astype(np.float64))
+        face, weights, _ = closest_on_triangles(self.source.mesh.vertices, self._places[0], answer.source.faces)
+        corners = answer.source.faces[face]
+        share = np.einsum("pk,pk->p", weights, answer.valid[corners].astype(np.float64))
         used = np.zeros(self.source.mesh.n_vertices, dtype=bool)
         used[np.unique(self.source.mesh.faces)] = True
         return Correspondence(
             source=self.source.original,
             target=self.target.original,
-            points=self._sent(found.points, corners, weights),
+            points=self._sent(answer.points, corners, weights),
             valid=used & (share > 0.5),
-            distortion=np.einsum("pk,pk->p", weights, found.distortion[corners]),
-            status=found.status,
-            candidates=tuple(self._candidate(one, corners, weights) for one in found.candidates),
-            meta={**found.meta, "solved_vertices": [copy.mesh.n_vertices for copy in self.copies]},
+            distortion=np.einsum("pk,pk->p", weights, answer.distortion[corners]),
+            status=answer.status,
+            candidates=tuple(self._candidate(one, corners, weights) for one in answer.candidates),
+            meta={**answer.meta, "solved_vertices": [copy.mesh.n_vertices for copy in self.copies]},
         )
 
     @property
@@ -111,6 +111,6 @@ class CoarseCopies:
 
 @memoized
 def _whole(surface: Surface) -> DeformableMesh:
-    """All of a surface; what it is carried by takes no curvature."""
+    """All of a surface; maps are prolonged without its curvature."""
     n = surface.mesh.n_vertices
     return DeformableMesh(surface.mesh, np.arange(n), np.zeros(n))

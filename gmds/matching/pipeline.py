@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any, Literal
 
@@ -17,26 +17,29 @@ from gmds.correspondence import Correspondence
 from gmds.errors import SampleCountError
 from gmds.initialization.from_landmarks import landmarks as from_landmarks
 from gmds.landmarks.checking import place_landmarks
-from gmds.matching.candidates import MapCandidate, make_candidate, mirrored
+from gmds.matching.candidates import GivenDistances, MapCandidate, make_candidate, mirrored
 from gmds.matching.large_surfaces import CoarseCopies
 from gmds.matching.notes import match_notes
 from gmds.matching.pair import SurfacePair
 from gmds.matching.polishing import polished
-from gmds.matching.proposals import Start, distinct, proposals
+from gmds.matching.proposals import Proposal, Start, distinct, proposals
 from gmds.matching.result import contenders, correspondence_of
 from gmds.mds.losses import LeastSquares, Loss
 from gmds.provenance import method_in_words
 from gmds.suggestions import suggest_keywords
 from gmds.surface.measured import Surface, measure, view_of
+from gmds.surface.view import View
 
 FEWEST_SAMPLES = 3
 
 SAMPLES = 300
-ENOUGH = 3  # hard landmarks that need no other starts
-ENOUGH_SOFT = 6  # landmarks of any kind that need none: should one be wrong, the others outweigh it
-REFINED = 3  # maps whose samples are placed by the solver
-UNLIKELY = 0.8  # log-likelihood short of the best, at which no map of development pairs was the answer in the end
+ENOUGH_HARD = 3  # hard landmarks that need no other starts
+ENOUGH = 6  # landmarks of any kind that need none: should one be wrong, the others outweigh it
+EMBEDDED = 3  # maps of a pair whose samples are placed by the solver
+SHORTFALL = 0.8  # of log-likelihood from the best, at which no map of development pairs was the answer in the end
 REFLECTED = {"preserve": (False,), "reverse": (True,), "any": (False, True)}
+
+Report = Callable[[str, float], None]
 
 
 @suggest_keywords
@@ -61,8 +64,8 @@ def match(  # noqa: PLR0913 - the signature is a promise
     vertex; the one that best keeps distances, curvature and orientation is the answer. With `distance`, a function
     Mesh -> Distance that is called on each surface brought to unit area, starts and embedding use that alone.
 
-    A surface with more than 8,000 vertices is matched as a copy with some 5,000, and the map is carried to all of them,
-    unless a `distance` is given.
+    A surface with more than 8,000 vertices is matched as a copy with some 5,000, and the map is prolonged to all of
+    them, unless a `distance` is given.
 
     Either may be a `Surface`, made by `gmds.surface.measure`: what was computed of it for one match serves the next.
 
@@ -75,8 +78,8 @@ def match(  # noqa: PLR0913 - the signature is a promise
         raise ValueError(f"orientation must be 'preserve', 'reverse' or 'any', not {orientation!r}")
     measured, facing = (s if isinstance(s, Surface) else measure(Mesh.from_object(s)) for s in (source, target))
     loss = LeastSquares() if loss is None else loss
-    given = None if landmarks is None else place_landmarks(landmarks, measured.original, facing.original)
-    constraints = None if given is None else given.constraints.within(measured.mesh.faces, facing.mesh.faces)
+    placed = None if landmarks is None else place_landmarks(landmarks, measured.original, facing.original)
+    constraints = None if placed is None else placed.constraints.within(measured.mesh.faces, facing.mesh.faces)
     count = SAMPLES if n_samples is None else check_sample_count(n_samples, measured.original)
     report = progress or (lambda stage, fraction: None)
     started = time.perf_counter()
@@ -86,18 +89,17 @@ def match(  # noqa: PLR0913 - the signature is a promise
     if copies is not None:
         constraints = None if constraints is None else copies.landmarks(constraints)
         measured, facing = copies.copies
-    placed: list[MapCandidate] = []
+    candidates: list[MapCandidate] = []
     for reflected in REFLECTED[orientation]:
         pair = SurfacePair(measured, facing.reflection if reflected else facing, constraints, reflected)
-        placed += _candidates(pair, distance, loss, count, report)
-    placed.sort(key=lambda e: e.evidence.neg_log_likelihood)
-    report("refining", 0.7)
+        views, given = views_of(pair, distance)
+        proposed = proposals(pair, views, starts_of(pair), lambda share: report("proposing", 0.2 + 0.3 * share))
+        likely = distinct(proposed, pair.simplified[0], EMBEDDED, SHORTFALL)
+        candidates += embedded(pair, likely, loss, count, given, report)
+    candidates.sort(key=lambda candidate: candidate.evidence.neg_log_likelihood)
     if distance is None:
-        rivals, tell = contenders(placed), lambda share: report("refining", 0.7 + 0.3 * share)
-        done = side_by_side(lambda e: polished(e, tell if e is rivals[0] else None), rivals)
-        placed = sorted(done, key=lambda e: e.evidence.neg_log_likelihood) + [e for e in placed if e not in rivals]
-    other = mirrored(placed[0])
-    placed += [] if other is None else [other]
+        candidates = registered(candidates, report)
+    candidates += mirrored(candidates[0])
 
     settings = {
         "n_samples": min(count, len(measured.regular.usable)),
@@ -105,44 +107,65 @@ def match(  # noqa: PLR0913 - the signature is a promise
         "orientation": orientation,
         "rng": rng,
     }
-    found = correspondence_of(placed, {"parameters": settings})
-    found = found if copies is None else copies.prolonged(found)
-    notes = match_notes(measured.original, facing.original, found.status)
-    if given is not None:
-        found, missed = given.applied(found)
-        notes += [*given.notes, *missed]
+    answer = correspondence_of(candidates, {"parameters": settings})
+    answer = answer if copies is None else copies.prolonged(answer)
+    notes = match_notes(measured.original, facing.original, answer.status)
+    if placed is not None:
+        answer, missed = placed.applied(answer)
+        notes += [*placed.notes, *missed]
     report("done", 1.0)
     seconds = round(time.perf_counter() - started, 3)
-    return replace(found, meta={**found.meta, "notes": [str(note) for note in notes], "seconds": seconds})
+    return replace(answer, meta={**answer.meta, "notes": [str(note) for note in notes], "seconds": seconds})
 
 
-def _candidates(
-    pair: SurfacePair,
-    distance: Callable[[Mesh], Distance] | None,
-    loss: Loss,
-    count: int,
-    report: Callable[[str, float], None],
-) -> list[MapCandidate]:
-    """The few maps of a pair that deserve it, their samples placed by the solver."""
-    given = None
+def views_of(
+    pair: SurfacePair, distance: Callable[[Mesh], Distance] | None
+) -> tuple[list[tuple[View, View]], GivenDistances | None]:
+    """Both surfaces in each metric in which maps are proposed, and the distances that are given, if any."""
     if distance is None:
         ours, theirs = side_by_side(lambda surface: surface.views, (pair.source, pair.target))
-        views = list(zip(ours, theirs, strict=True))
-    else:
-        distances = distance(pair.source.mesh), distance(pair.target.mesh)
-        given = (view_of(distances[0], pair.source), view_of(distances[1], pair.target)), distances
-        views = [given[0]]
+        return list(zip(ours, theirs, strict=True)), None
+    distances = distance(pair.source.mesh), distance(pair.target.mesh)
+    views = view_of(distances[0], pair.source), view_of(distances[1], pair.target)
+    return [views], GivenDistances(views, distances)
+
+
+def starts_of(pair: SurfacePair) -> list[Start]:
+    """Those of `gmds.initialization`, and those from landmarks, alone where there are enough of these."""
     starts: list[Start] = list(initialization.ALL)
-    if pair.landmarks is not None:
-        enough = len(pair.landmarks.hard) >= ENOUGH or len(pair.landmarks) >= ENOUGH_SOFT
-        starts = [from_landmarks(*pair.landmarks.vertices), *(() if enough else starts)]
-    report("proposing", 0.2)
-    found = proposals(pair, views, starts, lambda share: report("proposing", 0.2 + 0.3 * share))
-    chosen = distinct(found, pair.simplified[0], REFINED, UNLIKELY)
+    if pair.landmarks is None:
+        return starts
+    enough = len(pair.landmarks.hard) >= ENOUGH_HARD or len(pair.landmarks) >= ENOUGH
+    return [from_landmarks(*pair.landmarks.vertices), *(() if enough else starts)]
+
+
+def embedded(
+    pair: SurfacePair,
+    proposed: Sequence[Proposal],
+    loss: Loss,
+    count: int,
+    given: GivenDistances | None,
+    report: Report,
+) -> list[MapCandidate]:
+    """The proposals with `count` samples placed by the solver, prolonged to all vertices."""
     report("embedding", 0.5)
     count = min(count, len(pair.source.regular.usable))
     place = functools.partial(make_candidate, pair, loss=loss, count=count, given=given)
-    return side_by_side(place, chosen, lambda share: report("embedding", 0.5 + 0.2 * share))
+    return side_by_side(place, proposed, lambda share: report("embedding", 0.5 + 0.2 * share))
+
+
+def registered(candidates: Sequence[MapCandidate], report: Report) -> list[MapCandidate]:
+    """The candidates, the most likely first, after the one or two that contend to be the answer were polished."""
+    report("refining", 0.7)
+    rivals = contenders(candidates)
+    tell = functools.partial(_tell, report)
+    done = side_by_side(lambda one: polished(one, tell if one is rivals[0] else None), rivals)
+    ranked = sorted(done, key=lambda candidate: candidate.evidence.neg_log_likelihood)
+    return ranked + [candidate for candidate in candidates if candidate not in rivals]
+
+
+def _tell(report: Report, share: float) -> None:
+    report("refining", 0.7 + 0.3 * share)
 
 
 def check_sample_count(count: Any, mesh: Mesh) -> int:

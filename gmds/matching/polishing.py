@@ -8,56 +8,81 @@ from dataclasses import replace
 from geodesics import SurfacePoints
 from gmds.matching.candidates import MapCandidate, registered
 from gmds.matching.evidence import evidence
-from gmds.registration.register import REFINE, SETTLE, Registered, both_ways, settled
+from gmds.matching.pair import SurfacePair
+from gmds.registration.register import Registered, both_ways, settled
+from gmds.registration.settings import FULL, REFINEMENT, SPECTRAL, RegistrationSettings
 from gmds.spectral.refinement import ROUNDS, upsampled
 
-REST = tuple(range(1, len(ROUNDS)))  # rounds of alignment of a map that is good already
+LATER_ROUNDS = tuple(range(1, len(ROUNDS)))  # rounds of alignment of a map that is good already
 FINE_LADDER = (40, 50, 60, 70, 80, 90, 100)  # numbers of eigenfunctions for such a map
 REPEATS = 2  # more refinements, if each pays
 RETURNS = 2  # registrations there and back
-GAIN = 0.005  # share of the energy by which each must lower it, where parts grew
-SPECTRAL_GAIN = 0.08  # and by which eigenfunctions must: more where nothing grew, less across species
+GAIN = 0.005  # share of the energy by which each must lower it, where parts changed size
+SPECTRAL_GAIN = 0.08  # and by which eigenfunctions must: more where no part changed size, less across species
 
 
-def polished(best: MapCandidate, progress: Callable[[float], None] | None = None) -> MapCandidate:
+def polished(candidate: MapCandidate, progress: Callable[[float], None] | None = None) -> MapCandidate:
     """The map refined further, for as long as the elastic energy of the deformation gets less.
 
-    It goes through spectral upsampling in the metric of space, or in the one in which it keeps area, and is registered
-    again. Where nothing grew the first is the better: it does not follow the errors of the map. Then eigenfunctions
-    take part in the search for closest points, if that pays; the target is registered to the source as
-    well, and what both say is brought together.
+    It is refined spectrally and registered again; then eigenfunctions take part in the search for closest points, if
+    that pays; then the target is registered to the source as well, and what both say is brought together.
     """
-    pair, now = best.pair, best.deformation
-    if now.residuals.is_congruence:
-        return best
-    regular = pair.source.regular, pair.target.regular
+    pair, deformation = candidate.pair, candidate.deformation
+    if deformation.residuals.is_congruence:
+        return candidate
     tell = progress or (lambda share: None)
+    deformation = refined(pair, deformation)
+    tell(0.3)
+    deformation, settings = with_eigenfunctions(pair, deformation)
+    deformation = there_and_back(pair, deformation, settings, tell)
+    weighed = evidence(
+        pair, candidate.views, deformation.points, candidate.evidence.both_simplified, deformation.residuals
+    )
+    return replace(candidate, points=deformation.points, deformation=deformation, evidence=weighed)
+
+
+def refined(pair: SurfacePair, deformation: Registered) -> Registered:
+    """The map after spectral upsampling, in the metric of space or in the one in which it keeps area, and registration.
+
+    Where no part changed size the metric of space is the better: it does not follow the errors of the map.
+    """
 
     def in_space(points: SurfacePoints) -> Registered:
-        images = upsampled(*regular, points.nearest_vertices(), FINE_LADDER)
-        return registered(pair, SurfacePoints.at_vertices(pair.target.mesh, images), REFINE)
+        images = upsampled(pair.source.regular, pair.target.regular, points.nearest_vertices(), FINE_LADDER)
+        return registered(pair, SurfacePoints.at_vertices(pair.target.mesh, images), settings)
 
     def keeping_area(points: SurfacePoints) -> Registered:
-        images, _ = pair.refiner.aligned(points.nearest_vertices(), REST)
-        return registered(pair, SurfacePoints.at_vertices(pair.target.mesh, images), REFINE)
+        images, _ = pair.refiner.aligned(points.nearest_vertices(), LATER_ROUNDS)
+        return registered(pair, SurfacePoints.at_vertices(pair.target.mesh, images), settings)
 
-    way, trial = keeping_area, in_space(now.points)
-    if trial.residuals.cost < now.residuals.cost:
-        way, now = in_space, trial
+    settings = FULL.with_stages(REFINEMENT)
+    way, trial = keeping_area, in_space(deformation.points)
+    if trial.residuals.cost < deformation.residuals.cost:
+        way, deformation = in_space, trial
     for _ in range(REPEATS):
-        trial = way(now.points)
-        if trial.residuals.cost >= now.residuals.cost:
+        trial = way(deformation.points)
+        if trial.residuals.cost >= deformation.residuals.cost:
             break
-        now = trial
-    tell(0.3)
-    trial = settled(*pair.full, now.y, SETTLE, growing=True, partial=True, views=regular)
-    isometric = trial.residuals.cost < (1 - SPECTRAL_GAIN) * now.residuals.cost
-    now, views = (trial, regular) if isometric else (now, None)
+        deformation = trial
+    return deformation
+
+
+def with_eigenfunctions(pair: SurfacePair, deformation: Registered) -> tuple[Registered, RegistrationSettings]:
+    """The map settled with eigenfunctions in the search for closest points, and so the settings, if that pays."""
+    spectral = replace(FULL, stages=SPECTRAL, views=(pair.source.regular, pair.target.regular))
+    trial = settled(*pair.full, deformation.y, spectral)
+    pays = trial.residuals.cost < (1 - SPECTRAL_GAIN) * deformation.residuals.cost
+    return (trial, spectral) if pays else (deformation, FULL)
+
+
+def there_and_back(
+    pair: SurfacePair, deformation: Registered, settings: RegistrationSettings, tell: Callable[[float], None]
+) -> Registered:
+    """The map registered both ways, a few times; without eigenfunctions only for as long as it pays."""
     for number in range(RETURNS):
         tell(0.4 + 0.6 * number / RETURNS)
-        trial = both_ways(*pair.full, now, views)
-        if not isometric and trial.residuals.cost >= (1 - GAIN) * now.residuals.cost:
+        trial = both_ways(*pair.full, deformation, settings)
+        if settings.views is None and trial.residuals.cost >= (1 - GAIN) * deformation.residuals.cost:
             break
-        now = trial
-    weighed = evidence(pair, best.views, now.points, best.evidence.both_simplified, now.residuals)
-    return replace(best, points=now.points, deformation=now, evidence=weighed)
+        deformation = trial
+    return deformation

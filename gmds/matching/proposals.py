@@ -14,18 +14,19 @@ from geodesics.threads import side_by_side
 from gmds.initialization.shortlist import shortlist
 from gmds.matching.pair import SurfacePair
 from gmds.registration.deformable import DeformableMesh
-from gmds.registration.register import BEGIN, COARSE, Registered, register, returning, settled
+from gmds.registration.register import Registered, register, returning, settled
 from gmds.registration.residuals import Residuals
+from gmds.registration.settings import COARSE, SIMPLIFIED, TO_IMAGES, RegistrationSettings
 from gmds.spectral.sample_maps import SampledPair
 from gmds.surface.view import View
 
 Start = Callable[[SampledPair], list[Integers]]
 
-PROPOSED = 16  # maps that each metric proposes
-LEAST_KEPT = 8  # of them all, at the least, are registered to the end
-RETURNED = 12  # of these, the most likely, are registered the way back as well
-ALIKE = 0.03  # root mean square gap, in root areas, below which maps that have only begun lead to the same
-APART = 0.05  # root mean square gap, in root areas, below which two maps are one
+MAPS_PER_METRIC = 16  # that are proposed
+LEAST_SETTLED = 8  # of them all, at the least, are registered to the end
+MOST_RETURNED = 12  # of these, the most likely, are registered the way back as well
+SAME_BEGINNING = 0.03  # root mean square gap, in root areas, below which maps that have only begun lead to the same
+SAME_MAP = 0.05  # root mean square gap, in root areas, below which two maps are one
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,18 +37,15 @@ class Proposal:
     back: Registered
 
     @classmethod
-    def of(cls, pair: SurfacePair, places: Floats, *, growing: bool = False) -> Proposal:
-        """The map that sends the vertices of the simplified source to `places` (n, 3); parts may be `growing`."""
-        source, target = pair.simplified
-        there = register(source, target, places, (*BEGIN, *COARSE), growing=growing)
-        return cls.completed(pair, there, growing=growing)
+    def of(cls, pair: SurfacePair, places: Floats) -> Proposal:
+        """The map that sends the vertices of the simplified source to `places` (n, 3)."""
+        return cls.completed(pair, register(*pair.simplified, places, SIMPLIFIED), SIMPLIFIED)
 
     @classmethod
-    def completed(cls, pair: SurfacePair, there: Registered, *, growing: bool = False) -> Proposal:
-        """The map of the simplified source `there` on that of the target."""
+    def completed(cls, pair: SurfacePair, there: Registered, settings: RegistrationSettings) -> Proposal:
+        """The map of the simplified source `there` on the simplified target, and that registered the way back."""
         source, target = pair.simplified
-        begun = returning(source, target, there.y)
-        return cls(there, register(target, source, begun, (*BEGIN, *COARSE), growing=growing))
+        return cls(there, register(target, source, returning(source, target, there.y), settings.reversed))
 
     @property
     def residuals(self) -> tuple[Residuals, Residuals]:
@@ -72,67 +70,69 @@ def proposals(
     """Maps from starts in each pair of views, and composed with a reflection, each registered on the simplified meshes.
 
     A reflection of either surface makes of a mirrored map the right one, and of a right one the mirrored. Which is
-    which shows when the simplified source is deformed: a surface can not be turned inside out for little. The third
-    that needs the least deformation to begin with is registered to the end, and `RETURNED` of these the way back.
+    which shows when the simplified source is deformed: a surface cannot be turned inside out for little. The third
+    that needs the least deformation to begin with is registered to the end, and `MOST_RETURNED` of these the way back.
     """
     source, target = pair.simplified
     places = [target.mesh.vertices[images] for images in rough_maps(pair, views, starts)]
     first, second, third = (_part(progress, *shares) for shares in ((0.6, 0.75), (0.75, 0.9), (0.9, 1.0)))
-    begun = side_by_side(lambda place: register(source, target, place, BEGIN, growing=False), places, first)
-    likely = _told_apart(_cheapest(begun)[: max(LEAST_KEPT, len(places) // 3)], source)
-    there = side_by_side(lambda found: settled(source, target, found.y, COARSE, growing=False), likely, second)
-    return side_by_side(functools.partial(Proposal.completed, pair), _cheapest(there)[:RETURNED], third)
+    begin, settle = SIMPLIFIED.with_stages(TO_IMAGES), SIMPLIFIED.with_stages(COARSE)
+    begun = side_by_side(lambda place: register(source, target, place, begin), places, first)
+    cheap = _without_repeats(_cheapest(begun)[: max(LEAST_SETTLED, len(places) // 3)], source)
+    there = side_by_side(lambda start: settled(source, target, start.y, settle), cheap, second)
+    complete = functools.partial(Proposal.completed, pair, settings=SIMPLIFIED)
+    return side_by_side(complete, _cheapest(there)[:MOST_RETURNED], third)
 
 
 def _part(progress: Callable[[float], None] | None, start: float, end: float) -> Callable[[float], None]:
-    """Tells `progress` of a part of the work that begins and ends at these shares of the whole."""
+    """Reports to `progress` a part of the work that begins and ends at these shares of the whole."""
     return lambda share: None if progress is None else progress(start + (end - start) * share)
 
 
-def _cheapest(found: Sequence[Registered]) -> list[Registered]:
+def _cheapest(deformations: Sequence[Registered]) -> list[Registered]:
     """Those that need the least deformation first."""
-    return sorted(found, key=lambda one: one.residuals.neg_log_likelihood)
+    return sorted(deformations, key=lambda one: one.residuals.neg_log_likelihood)
 
 
-def _told_apart(found: Sequence[Registered], source: DeformableMesh) -> list[Registered]:
+def _without_repeats(deformations: Sequence[Registered], source: DeformableMesh) -> list[Registered]:
     """Those that no one before them nearly repeats."""
-    rows = np.stack([(np.sqrt(source.areas)[:, None] * one.y).ravel() for one in found])
+    rows = np.stack([(np.sqrt(source.areas)[:, None] * one.y).ravel() for one in deformations])
     gaps = euclidean_distances(rows, rows)
     kept: list[int] = []
-    for i in range(len(found)):
-        if (gaps[i, kept] > ALIKE).all():
+    for i in range(len(deformations)):
+        if (gaps[i, kept] > SAME_BEGINNING).all():
             kept.append(i)
-    return [found[i] for i in kept]
+    return [deformations[i] for i in kept]
 
 
 def rough_maps(pair: SurfacePair, views: Sequence[tuple[View, View]], starts: Sequence[Start]) -> list[Integers]:
     """Maps (p,) from the vertices of the simplified source to those of the target's, before and after a reflection."""
     (here, there), (ours, theirs) = pair.simplified, pair.reflections
-    spot = np.zeros(pair.target.mesh.n_vertices, dtype=np.int64)
-    spot[there.origin] = np.arange(len(there.origin))
+    row = np.zeros(pair.target.mesh.n_vertices, dtype=np.int64)
+    row[there.origin] = np.arange(len(there.origin))
     sampled = side_by_side(lambda both: SampledPair.of(*both), views)
-    found = [(one, images) for one in sampled for images in shortlist(one, starts, PROPOSED)]
+    short = [(one, images) for one in sampled for images in shortlist(one, starts, MAPS_PER_METRIC)]
 
-    def carried(origin: Integers) -> list[Integers]:
-        return side_by_side(lambda each: spot[each[0].extended(each[1], origin, there.origin)], found)
+    def extended(origin: Integers) -> list[Integers]:
+        return side_by_side(lambda each: row[each[0].extended(each[1], origin, there.origin)], short)
 
-    straight = carried(here.origin)
-    turned = [] if ours is None else carried(ours[here.origin])
+    straight = extended(here.origin)
+    turned = [] if ours is None else extended(ours[here.origin])
     if theirs is not None:
         back = there.places.query(pair.target.mesh.vertices[theirs[there.origin]])[1]
         turned = [back[images] for images in straight]
     return straight + turned
 
 
-def distinct(found: Sequence[Proposal], source: DeformableMesh, count: int, within: float = np.inf) -> list[Proposal]:
+def distinct(maps: Sequence[Proposal], source: DeformableMesh, count: int, within: float = np.inf) -> list[Proposal]:
     """The `count` best, best first, leaving out those that nearly repeat a better one.
 
     Those whose log-likelihood falls short of the best by more than `within` are left out as well.
     """
     kept: list[Proposal] = []
-    for proposal in sorted(found, key=lambda p: p.neg_log_likelihood):
+    for proposal in sorted(maps, key=lambda p: p.neg_log_likelihood):
         likely = not kept or proposal.neg_log_likelihood < kept[0].neg_log_likelihood + within
-        if likely and len(kept) < count and all(_gap(proposal, other, source.areas) > APART for other in kept):
+        if likely and len(kept) < count and all(_gap(proposal, other, source.areas) > SAME_MAP for other in kept):
             kept.append(proposal)
     return kept
 

@@ -1,4 +1,4 @@
-"""From the maps that were embedded to a Correspondence: which rows count, how far to trust it, what else there is."""
+"""From candidate maps to a Correspondence: which rows count, how far to trust it, what else there is."""
 
 from __future__ import annotations
 
@@ -16,23 +16,23 @@ from gmds.matching.candidates import MapCandidate
 from gmds.provenance import versions
 from gmds.surface.measured import on_original
 
-POOR = 0.2  # relative stress above which distances count as badly kept
-BENT = 0.2  # correlation of curvature below which they do as well
-TORN = 1.0  # elastic energy above which they do as well: lengths are off by about half
-CLOSE = 0.7  # difference of log-likelihood below which another map may be the right one
-ALONE = 99.0  # the difference told where there is no other map
-DIFFERENT = 0.1  # mean distance between the images of two maps, over root area, that makes them two answers
-OFF = 0.5  # spacings of vertices beyond which a point is off the target
-NEAR = 2.0  # times its distance from the target: nearer to the boundary, it is beyond
-REGION = 2e-4  # heat time, in units of the area, that makes a region of vertices
-AROUND = 1e-2  # heat time over which distortion is averaged: errors reach farther than what causes them
+MOST_STRESS = 0.2  # relative stress above which distances count as badly kept
+LEAST_CURVATURE = 0.2  # correlation of curvature below which they do as well
+MOST_ENERGY = 1.0  # elastic energy above which they do as well: lengths are off by about half
+AMBIGUOUS_MARGIN = 0.7  # difference of log-likelihood below which another map may be the right one
+MARGIN_OF_THE_ONLY = 99.0  # the difference told where there is no other map
+ANOTHER_MAP = 0.1  # mean distance between the images of two maps, over root area, that makes them two answers
+OFF_SURFACE = 0.5  # spacings of vertices beyond which a point is off the target
+TO_BOUNDARY = 2.0  # times its distance from the target: nearer to the boundary, it is beyond
+REGION_TIME = 2e-4  # heat time, in units of the area, that makes a region of vertices
+DISTORTION_TIME = 1e-2  # heat time over which distortion is averaged: errors reach farther than what causes them
 
 
 def correspondence_of(placed: Sequence[MapCandidate], meta: Mapping[str, Any]) -> Correspondence:
     """The best map as a `Correspondence` between the original meshes, the others as its candidates."""
     best = placed[0]
     source, target, margin = best.pair.source, best.pair.target, _margin(placed)
-    evidence = {**best.evidence.as_meta(), "margin": min(margin, ALONE)}
+    evidence = {**best.evidence.as_meta(), "margin": min(margin, MARGIN_OF_THE_ONLY)}
     candidates = tuple(Candidate(_original(e), e.evidence.stress, e.evidence.orientation) for e in placed[1:])
     return Correspondence(
         source=source.original,
@@ -55,7 +55,7 @@ def contenders(placed: Sequence[MapCandidate]) -> list[MapCandidate]:
     close = [
         e
         for e in placed[1:]
-        if e.evidence.closed and e.evidence.neg_log_likelihood < best.evidence.neg_log_likelihood + CLOSE
+        if e.evidence.closed and e.evidence.neg_log_likelihood < best.evidence.neg_log_likelihood + AMBIGUOUS_MARGIN
     ]
     return [best, *close[:1]]
 
@@ -74,26 +74,26 @@ def _valid(candidate: MapCandidate) -> Bools:
     """False (n,) at vertices of no area, and where the deformed source reaches beyond the boundary of the target.
 
     A vertex does when it is off the target and the boundary is hardly farther from it than the target is; so does a
-    region (`REGION`) when most of it does.
+    region (`REGION_TIME`) when most of it does.
     """
-    (source, target), found = candidate.pair.full, candidate.deformation
+    (source, target), y = candidate.pair.full, candidate.deformation.y
     used = source.areas > 0
     edge = np.flatnonzero(target.boundary)
     if len(edge) == 0:
         return np.asarray(used, dtype=np.bool_)
-    gap = np.linalg.norm(found.y - candidate.points.positions, axis=1)
-    to_edge = cKDTree(target.mesh.vertices[edge]).query(found.y)[0]
+    gap = np.linalg.norm(y - candidate.points.positions, axis=1)
+    to_edge = cKDTree(target.mesh.vertices[edge]).query(y)[0]
     spacing = np.sqrt(np.median(target.areas[target.usable]))
-    beyond = (gap > OFF * spacing) & (to_edge < NEAR * gap)
-    share = source.elasticity.smoother(REGION)(source.areas * beyond)
+    beyond = (gap > OFF_SURFACE * spacing) & (to_edge < TO_BOUNDARY * gap)
+    share = source.laplacian.heat_step(REGION_TIME)(source.areas * beyond)
     return np.asarray(used & (share < 0.5), dtype=np.bool_)
 
 
 def _distortion(candidate: MapCandidate) -> Floats:
     """Root of the elastic energy per area around each vertex (n,): the relative error of lengths; 1 where no map is."""
     source = candidate.pair.full[0]
-    smooth = source.elasticity.smoother(AROUND)
-    result = np.sqrt(np.maximum(smooth(source.areas * candidate.deformation.strain), 0.0))
+    average = source.laplacian.heat_step(DISTORTION_TIME)
+    result = np.sqrt(np.maximum(average(source.areas * candidate.deformation.strain), 0.0))
     result[source.areas <= 0] = 1.0
     return np.asarray(result, dtype=np.float64)
 
@@ -101,14 +101,14 @@ def _distortion(candidate: MapCandidate) -> Floats:
 def _status(best: MapCandidate, margin: float) -> MatchStatus:
     """POOR where distances, curvature or lengths are badly kept, AMBIGUOUS where another map is nearly as likely."""
     whole = best.evidence.whole
-    if best.evidence.stress > POOR or whole.curvature < BENT or whole.energy > TORN:
+    if best.evidence.stress > MOST_STRESS or whole.curvature < LEAST_CURVATURE or whole.energy > MOST_ENERGY:
         return MatchStatus.POOR
-    return MatchStatus.AMBIGUOUS if margin < CLOSE else MatchStatus.GOOD
+    return MatchStatus.AMBIGUOUS if margin < AMBIGUOUS_MARGIN else MatchStatus.GOOD
 
 
 def _margin(placed: Sequence[MapCandidate]) -> float:
     """How much more likely the best map is than any quite different one: the difference of log-likelihood."""
-    others = [other.evidence.neg_log_likelihood for other in placed[1:] if _gap(placed[0], other) > DIFFERENT]
+    others = [other.evidence.neg_log_likelihood for other in placed[1:] if _gap(placed[0], other) > ANOTHER_MAP]
     return min(others, default=np.inf) - placed[0].evidence.neg_log_likelihood
 
 

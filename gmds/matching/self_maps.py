@@ -1,10 +1,10 @@
-"""Maps of a surface to itself, other than the identity: proposed, embedded, registered, and told from one another."""
+"""Maps of a surface to itself, other than the identity: proposed, embedded, registered, and kept apart."""
 
 from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,27 +18,33 @@ from gmds.matching.pair import SurfacePair
 from gmds.matching.polishing import polished
 from gmds.matching.proposals import Proposal, distinct, rough_maps
 from gmds.mds.losses import Loss
-from gmds.registration.register import BEGIN, COARSE, Registered, register, settled
+from gmds.registration.energies import AsSimilarAsPossible
+from gmds.registration.register import Registered, register, settled
 from gmds.registration.residuals import Residuals
+from gmds.registration.settings import COARSE, SIMPLIFIED, TO_IMAGES
 from gmds.surface.measured import Surface
 
-TRIED = 12  # rough maps of each kind that are registered to the end, and more where they fit exactly
-MOST = 24  # self-maps of each kind, orientation-reversing or not, that are embedded
-ALWAYS = 3  # of the reversing ones, however unlikely
-LIKELY = 1.2  # log-likelihood, on the simplified meshes, that the others may be short of the best
+MOST_REGISTERED = 12  # rough maps of each kind that are registered to the end, and more where they fit exactly
+MOST_EMBEDDED = 24  # self-maps of each kind, orientation-reversing or not, that are embedded
+REVERSING_KEPT = 3  # of the reversing ones, however unlikely
+SHORTFALL = 1.2  # log-likelihood, on the simplified meshes, that the others may be short of the best
 # negative log-likelihood on the simplified meshes below which all maps fit exactly: a more likely one excludes none
-CONVINCING = -16.0
-STILL = (0.05, 0.09)  # mean distance in root areas below which a map is no more than the identity with something
+EXACT_FIT = -16.0
+IDENTITY_GAP = (0.05, 0.09)  # mean distance in root areas below which a map is no more than the identity with something
 # small misplaced: a reversing one (the identity inside out), one that keeps orientation
-APART = 0.08  # the same between two symmetries
-DISTINCT = 0.03  # the same between two maps that are worth refining
-SPARE = 2.5  # times the elastic energy of the best map that the others may need, where it is more than
+SYMMETRY_GAP = 0.08  # the same between two symmetries
+MAP_GAP = 0.03  # the same between two maps that are worth refining
+ENERGY_RATIO = 2.5  # times the elastic energy of the best map that the others may need, where it is more than
 FREE_ENERGY = 0.03  # which any may need
-ENERGY = 0.5  # elastic energy above which a self-map is no symmetry
-CURVATURE = 0.77  # correlation of mean curvature below which it is none
-STRESS = 0.2  # relative change of distances above which it is none
-SENSE = 0.5  # share of the area whose orientation a map must treat alike
+MOST_ENERGY = 0.5  # elastic energy above which a self-map is no symmetry
+LEAST_CURVATURE = 0.77  # correlation of mean curvature below which it is none
+MOST_STRESS = 0.2  # relative change of distances above which it is none
+LEAST_ORIENTATION = 0.5  # share of the area whose orientation a map must treat alike
 SAMPLES = 300
+
+
+GROWING = replace(SIMPLIFIED, energy=AsSimilarAsPossible)
+"""On a surface and itself parts may change size from the beginning: the only other explanation is that they stay."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,10 +75,10 @@ class SelfMap:
         return self.candidate.evidence.whole.energy
 
     @property
-    def still(self) -> bool:
+    def is_identity(self) -> bool:
         """Whether it is hardly more than the identity."""
         moved = self._mean_distance(self.positions, self.candidate.pair.source.mesh.vertices)
-        return moved <= _still(self.candidate.pair)
+        return moved <= _identity_gap(self.candidate.pair)
 
     @property
     def involution_error(self) -> float:
@@ -84,8 +90,12 @@ class SelfMap:
     def plausible(self) -> bool:
         """Whether it keeps lengths, distances and curvature, and does to orientation what it is meant to."""
         evidence, reversing = self.candidate.evidence, self.candidate.pair.reflected
-        keeps = evidence.stress <= STRESS and evidence.whole.energy <= ENERGY and _curvature(evidence.whole) > CURVATURE
-        return keeps and (-evidence.orientation if reversing else evidence.orientation) > SENSE
+        keeps = (
+            evidence.stress <= MOST_STRESS
+            and evidence.whole.energy <= MOST_ENERGY
+            and _curvature(evidence.whole) > LEAST_CURVATURE
+        )
+        return keeps and (-evidence.orientation if reversing else evidence.orientation) > LEAST_ORIENTATION
 
     def gap(self, other: SelfMap) -> float:
         """Mean distance between the images of two self-maps, in root areas."""
@@ -107,27 +117,26 @@ def self_maps(
     kinds: list[list[Proposal]] = []
     for number, pair in enumerate(pairs):
         progress("proposing", 0.05 + 0.25 * number)
-        found = [p for p in proposed(pair) if _moves(p.registered, pair) > _still(pair)]
-        kinds.append(distinct(found, pair.simplified[0], MOST))
-    limit = max(min((p.neg_log_likelihood for kind in kinds for p in kind), default=0.0), CONVINCING) + LIKELY
-    chosen = [(pairs[0], p) for i, p in enumerate(kinds[0]) if i < ALWAYS or p.neg_log_likelihood < limit]
+        moving = [p for p in proposed(pair) if _moves(p.registered, pair) > _identity_gap(pair)]
+        kinds.append(distinct(moving, pair.simplified[0], MOST_EMBEDDED))
+    limit = max(min((p.neg_log_likelihood for kind in kinds for p in kind), default=0.0), EXACT_FIT) + SHORTFALL
+    chosen = [(pairs[0], p) for i, p in enumerate(kinds[0]) if i < REVERSING_KEPT or p.neg_log_likelihood < limit]
     chosen += [(pairs[1], p) for p in kinds[1] if p.neg_log_likelihood < limit]
     begun: list[SelfMap] = []
     for i, (pair, proposal) in enumerate(chosen):
         progress("embedding", 0.55 + 0.3 * i / len(chosen))
         begun.append(SelfMap(make_candidate(pair, proposal, loss, min(SAMPLES, len(surface.regular.usable)))))
-    best = likely(begun, DISTINCT)
-    for i, found_map in enumerate(best):
+    best = likely(begun, MAP_GAP)
+    for i, one in enumerate(best):
         progress("refining", 0.85 + 0.15 * i / len(best))
-        yield SelfMap(polished(found_map.candidate))
+        yield SelfMap(polished(one.candidate))
 
 
 def proposed(pair: SurfacePair) -> list[Proposal]:
     """Proposals from the rough maps of `match` that are neither alike nor near the identity: the likeliest of them.
 
     One metric more than in `match`: curvature of either side of a surface comes from the same mesh, so that there is
-    less to be smoothed away, and what is left follows parts that grew more closely. Parts may grow from the beginning:
-    what would explain it otherwise, on a surface and itself, is only that they stay where they are.
+    less to be smoothed away, and what is left follows parts of another size more closely.
     """
     source, target = pair.simplified
     sharp = functools.partial(scale_invariant, smoothing=SHARP)
@@ -136,31 +145,31 @@ def proposed(pair: SurfacePair) -> list[Proposal]:
         (pair.source.view(sharp), pair.target.view(sharp)),
     ]
     places = [target.mesh.vertices[images] for images in rough_maps(pair, views, initialization.ALL)]
-    begun = side_by_side(lambda place: register(source, target, place, BEGIN, growing=True), places)
+    begin, settle = GROWING.with_stages(TO_IMAGES), GROWING.with_stages(COARSE)
+    begun = side_by_side(lambda place: register(source, target, place, begin), places)
     kept: list[int] = []
-    for i in np.argsort([found.residuals.neg_log_likelihood for found in begun], kind="stable"):
-        new = all(source.areas @ np.linalg.norm(begun[i].y - begun[j].y, axis=1) > DISTINCT for j in kept)
-        wanted = len(kept) < TRIED or begun[i].residuals.neg_log_likelihood < CONVINCING / 2
-        if new and wanted and _moves(begun[i], pair) > _still(pair):
+    for i in np.argsort([one.residuals.neg_log_likelihood for one in begun], kind="stable"):
+        new = all(source.areas @ np.linalg.norm(begun[i].y - begun[j].y, axis=1) > MAP_GAP for j in kept)
+        wanted = len(kept) < MOST_REGISTERED or begun[i].residuals.neg_log_likelihood < EXACT_FIT / 2
+        if new and wanted and _moves(begun[i], pair) > _identity_gap(pair):
             kept.append(int(i))
 
     def completed(number: int) -> Proposal:
-        there = settled(source, target, begun[number].y, COARSE, growing=True)
-        return Proposal.completed(pair, there, growing=True)
+        return Proposal.completed(pair, settled(source, target, begun[number].y, settle), GROWING)
 
     return side_by_side(completed, kept)
 
 
-def likely(maps: list[SelfMap], apart: float = APART) -> list[SelfMap]:
+def likely(maps: list[SelfMap], apart: float = SYMMETRY_GAP) -> list[SelfMap]:
     """Those that need not much more energy than the most likely, most likely first, without repetitions.
 
     A map that swaps one pair of legs and not the other costs a tear; where it is the best there is, it comes alone.
     """
     kept: list[SelfMap] = []
-    for found in sorted((m for m in maps if not m.still), key=lambda m: m.neg_log_likelihood):
-        allowed = not kept or found.energy <= max(SPARE * kept[0].energy, FREE_ENERGY)
-        if allowed and all(found.gap(other) > apart for other in kept):
-            kept.append(found)
+    for one in sorted((m for m in maps if not m.is_identity), key=lambda m: m.neg_log_likelihood):
+        allowed = not kept or one.energy <= max(ENERGY_RATIO * kept[0].energy, FREE_ENERGY)
+        if allowed and all(one.gap(other) > apart for other in kept):
+            kept.append(one)
     return kept
 
 
@@ -168,15 +177,15 @@ def _curvature(residuals: Residuals) -> float:
     return min(residuals.curvature, residuals.curvature_back)
 
 
-def _moves(found: Registered, pair: SurfacePair) -> float:
+def _moves(deformation: Registered, pair: SurfacePair) -> float:
     """Mean distance over which a registration moves the simplified mesh."""
     simplified = pair.simplified[0]
-    gaps = np.linalg.norm(_unmirrored(found.y, pair) - simplified.mesh.vertices, axis=1)
+    gaps = np.linalg.norm(_unmirrored(deformation.y, pair) - simplified.mesh.vertices, axis=1)
     return float(simplified.areas @ gaps)
 
 
-def _still(pair: SurfacePair) -> float:
-    return STILL[0] if pair.reflected else STILL[1]
+def _identity_gap(pair: SurfacePair) -> float:
+    return IDENTITY_GAP[0] if pair.reflected else IDENTITY_GAP[1]
 
 
 def _unmirrored(places: Floats, pair: SurfacePair) -> Floats:

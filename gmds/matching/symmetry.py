@@ -35,10 +35,10 @@ def self_symmetry(
     area that keeps it, minus the rest), `energy` of the deformation, and `twice`: how far, on average and in root
     areas, points are from home after the map is done twice - 0 for an involution, and then a measure of its error.
 
-    A mesh with more vertices than `n_vertices` is solved on a decimated copy and the maps are carried back; where it
-    can not be decimated (edges with three faces) the whole is used. A surface of revolution has more symmetries than
-    can be listed: some of them are. `progress(stage, fraction)` is called as work goes on. Raises `MeshError`,
-    `TooFewVertices` (E113), and ValueError when `n_vertices` is below 100.
+    A mesh with more vertices than `n_vertices` is solved on a decimated copy and the maps are prolonged to all of it;
+    where it cannot be decimated (edges with three faces) the whole is used. A surface of revolution has more
+    symmetries than can be listed: some of them are. `progress(stage, fraction)` is called as work goes on. Raises
+    `MeshError`, `TooFewVertices` (E113), and ValueError when `n_vertices` is below 100.
     """
     if n_vertices < 100:
         raise ValueError(f"n_vertices must be at least 100, not {n_vertices}: fewer do not show a shape")
@@ -53,19 +53,20 @@ def self_symmetry(
     seconds = round(time.perf_counter() - started, 3)
     report("done", 1.0)
     settings = {"parameters": {"n_vertices": n_vertices}, "seconds": seconds}
-    told = [_told(m, settings, MatchStatus.GOOD if good else MatchStatus.POOR) for m in good or found[:1]]
+    status = MatchStatus.GOOD if good else MatchStatus.POOR
+    answers = [_correspondence(m, settings, status) for m in good or found[:1]]
     copies = CoarseCopies(surface, surface, (copy, copy))
-    return told if copy is surface else [copies.prolonged(one) for one in told]
+    return answers if copy is surface else [copies.prolonged(one) for one in answers]
 
 
-def _told(found: SelfMap, settings: dict[str, object], status: MatchStatus) -> Correspondence:
+def _correspondence(one: SelfMap, settings: dict[str, object], status: MatchStatus) -> Correspondence:
     """The self-map as a Correspondence."""
-    evidence = found.candidate.evidence
+    evidence = one.candidate.evidence
     figures = {
-        "reversing": found.candidate.pair.reflected,
+        "reversing": one.candidate.pair.reflected,
         "stress": evidence.stress,
         "orientation": evidence.orientation,
-        "energy": found.energy,
-        "twice": found.involution_error,
+        "energy": one.energy,
+        "twice": one.involution_error,
     }
-    return replace(correspondence_of([found.candidate], {**settings, "symmetry": figures}), status=status)
+    return replace(correspondence_of([one.candidate], {**settings, "symmetry": figures}), status=status)

@@ -11,6 +11,7 @@ from scipy.spatial import cKDTree
 from geodesics import SurfacePoints
 from geodesics.arrays import Floats, Integers
 from gmds.registration.deformable import DeformableMesh
+from gmds.registration.settings import RegistrationSettings
 from gmds.surface.view import View
 
 Single = NDArray[np.float32]
@@ -39,15 +40,14 @@ class ClosestPoints:
         source: DeformableMesh,
         target: DeformableMesh,
         y: Floats,
-        partial: bool,
-        views: tuple[View, View] | None = None,
+        settings: RegistrationSettings,
         before: ClosestPoints | None = None,
     ) -> ClosestPoints:
-        """The closest points with the source at y (n, 3); after a small move, near the one `before` it.
+        """The closest points with the source at y (n, 3); after a small move, near those `before` it.
 
-        With `views`, of the undeformed surfaces, their eigenfunctions count as well: those of the source, as the
-        functional map of the closest points carries them over, beside those of the target (as in ZoomOut: Melzi et al.
-        2019). They keep round limbs from turning about their axis, where position and normal say nothing.
+        With the `views` of the settings eigenfunctions count as well: those of the source, pulled back by the
+        functional map of the closest points, beside those of the target (as in ZoomOut: Melzi et al. 2019). They keep
+        round limbs from turning about their axis, where position and normal say nothing.
         """
         ours, theirs = source.moved_features(y), target.features
         if before is None:
@@ -56,13 +56,13 @@ class ClosestPoints:
         else:
             near = target.nearest(ours, theirs, before.near)
             back = source.nearest(theirs[target.usable], ours, before.back)
-        if views is not None:
-            here, there = _spectral_rows(source, views, near)
+        if settings.views is not None:
+            here, there = _spectral_rows(source, settings.views, near)
             ours, theirs = np.hstack([ours, here]), np.hstack([theirs, there])
             near, back = target.nearest(ours, theirs, near), source.nearest(theirs[target.usable], ours, back)
         points = target.closest(ours, theirs, near)
         weight, weight_back = source.areas, target.areas[target.usable]
-        if partial:
+        if settings.partial:
             weight = np.where(target.on_boundary(points), 0.0, weight)
             weight_back = np.where(source.boundary[back], 0.0, weight_back)
         return cls(points, near, back, weight, weight_back)

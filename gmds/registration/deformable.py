@@ -18,7 +18,8 @@ from geodesics.topology.components import boundary_vertices
 from geodesics.topology.edges import proper_faces
 from gmds._kernels.closest import closest_on_faces, nearest_around
 from gmds.registration.anchors import Anchors
-from gmds.registration.elasticity import Elasticity
+from gmds.registration.energies import Energy, EnergyKind
+from gmds.registration.laplacian import CotangentLaplacian
 from gmds.surface.measured import Surface
 
 SIMPLIFIED_FACES = 1600
@@ -77,9 +78,17 @@ class DeformableMesh:
         return np.asarray(areas / areas.sum(), dtype=np.float64)
 
     @cached_property
-    def elasticity(self) -> Elasticity:
-        """What it costs to deform it."""
-        return Elasticity(self.mesh, self.areas)
+    def laplacian(self) -> CotangentLaplacian:
+        """Its Laplacian, of which the energies are made."""
+        return CotangentLaplacian(self.mesh, self.areas)
+
+    def energy(self, kind: EnergyKind) -> Energy:
+        """What it costs to deform it, by an energy of this kind."""
+        return self._energies.setdefault(kind, kind(self.laplacian))
+
+    @cached_property
+    def _energies(self) -> dict[EnergyKind, Energy]:
+        return {}
 
     @cached_property
     def normals(self) -> Floats:

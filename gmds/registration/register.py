@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -13,16 +12,8 @@ from geodesics.arrays import Floats
 from gmds.registration.closest_points import ClosestPoints
 from gmds.registration.deformable import DeformableMesh
 from gmds.registration.residuals import Residuals
-from gmds.surface.view import View
+from gmds.registration.settings import AFTER_RETURN, WAY_BACK, RegistrationSettings
 
-# stiffness, an area: the square of the distance over which misfits are averaged; and the number of steps
-BEGIN: Sequence[tuple[float, int]] = ((3e-2, 6),)
-COARSE: Sequence[tuple[float, int]] = ((1e-2, 4), (3e-3, 4))
-FINE: Sequence[tuple[float, int]] = ((1e-3, 4), (5e-4, 4))
-REFINE: Sequence[tuple[float, int]] = ((3e-3, 4), *FINE)  # of a map that is good already
-SETTLE: Sequence[tuple[float, int]] = ((1e-3, 5), (5e-4, 4))
-BACK: Sequence[tuple[float, int]] = ((3e-3, 4), (3e-3, 3), (1e-3, 3))
-AGAIN: Sequence[tuple[float, int]] = ((1e-3, 3), (1e-3, 3), (5e-4, 3))
 GIVEN_TIME = 1e-3  # heat time that smooths the given map before anything is fitted to it
 
 
@@ -40,99 +31,77 @@ class Registered:
 
 
 def register(
-    source: DeformableMesh,
-    target: DeformableMesh,
-    images: Floats,
-    stages: Sequence[tuple[float, int]] = (*BEGIN, *COARSE, *FINE),
-    *,
-    growing: bool,
-    partial: bool = False,
-    views: tuple[View, View] | None = None,
+    source: DeformableMesh, target: DeformableMesh, images: Floats, settings: RegistrationSettings
 ) -> Registered:
     """The source deformed so that its vertices, meant to go to `images` (n, 3), lie on the target.
 
     In the first stage vertices are pulled to the images given, against the elasticity; the others are as in `settled`.
     """
-    elasticity, areas = source.elasticity, source.areas
-    y = elasticity.smoother(GIVEN_TIME)(areas[:, None] * images)
-    stiffness_weight, steps = stages[0]
+    energy, areas = source.energy(settings.energy), source.areas
+    y = source.laplacian.heat_step(GIVEN_TIME)(areas[:, None] * images)
+    stiffness_weight, steps = settings.stages[0]
     for _ in range(steps):
-        pull = elasticity.right_hand_side(elasticity.local_similarities(y, growing))
-        y = elasticity.smoother(stiffness_weight)(stiffness_weight * pull + areas[:, None] * images)
-    return settled(source, target, y, stages[1:], growing=growing, partial=partial, views=views)
+        pull = energy.right_hand_side(energy.local_step(y))
+        y = energy.system.implicit_step(stiffness_weight)(stiffness_weight * pull + areas[:, None] * images)
+    return settled(source, target, y, settings.with_stages(settings.stages[1:]))
 
 
-def settled(
-    source: DeformableMesh,
-    target: DeformableMesh,
-    y: Floats,
-    stages: Sequence[tuple[float, int]],
-    *,
-    growing: bool,
-    partial: bool = False,
-    views: tuple[View, View] | None = None,
-) -> Registered:
+def settled(source: DeformableMesh, target: DeformableMesh, y: Floats, settings: RegistrationSettings) -> Registered:
     """The source, with its vertices at y (n, 3) to begin with, deformed so that they lie on the target.
 
     In turn, every vertex of either surface looks for the closest point of the other, in position and normal (as in
     ICP: Besl and McKay 1992; both ways, so that nothing of the target is left out), and the source takes the shape of
-    least elastic energy that these point constraints
-    allow. They grow ever stronger against the elasticity.
-    `growing`: whether the elasticity lets parts change size; `partial`: whether what is closest to a boundary is left
-    alone, as what it belongs to may be missing; `views` of both: whether eigenfunctions take part in the search. The
+    least elastic energy that these point constraints allow. They grow ever stronger against the elasticity. The
     anchors of the source pull as well.
     """
-    elasticity = source.elasticity
-    for stiffness_weight, steps in stages:
+    energy = source.energy(settings.energy)
+    for stiffness_weight, steps in settings.stages:
         closest = None
         for _ in range(steps):
-            closest = ClosestPoints.of(source, target, y, partial, views, closest)
+            closest = ClosestPoints.of(source, target, y, settings, closest)
             weights, goals = closest.point_constraints(source, target)
-            similarities = elasticity.local_similarities(y, growing)
+            local = energy.local_step(y)
             if source.anchors is not None:
-                energy = float(elasticity.energy(y, similarities).sum())
-                weights, goals = source.anchors.added_to((weights, goals), y, stiffness_weight, energy)
-            pull = elasticity.right_hand_side(similarities)
-            y = elasticity.solver(stiffness_weight, weights)(stiffness_weight * pull + weights[:, None] * goals)
-    return registered(source, target, y, growing=growing, partial=partial)
+                total = float(energy.value(y, local).sum())
+                weights, goals = source.anchors.added_to((weights, goals), y, stiffness_weight, total)
+            pull = energy.right_hand_side(local)
+            y = energy.system.solver(stiffness_weight, weights)(stiffness_weight * pull + weights[:, None] * goals)
+    return assessed(source, target, y, settings)
 
 
-def registered(
-    source: DeformableMesh, target: DeformableMesh, y: Floats, *, growing: bool, partial: bool = False
-) -> Registered:
-    """The source with its vertices at y (n, 3), as it is."""
-    elasticity, closest = source.elasticity, ClosestPoints.of(source, target, y, partial)
+def assessed(source: DeformableMesh, target: DeformableMesh, y: Floats, settings: RegistrationSettings) -> Registered:
+    """The source with its vertices at y (n, 3), as it is: closest points by position and normal, and residuals."""
+    energy, closest = source.energy(settings.energy), ClosestPoints.of(source, target, y, replace(settings, views=None))
     points, back = closest.points, closest.back
-    energy = elasticity.energy(y, elasticity.local_similarities(y, growing))
+    value = energy.value(y, energy.local_step(y))
     gap = np.linalg.norm(points.positions - y, axis=1)
     gap_back = np.linalg.norm(target.mesh.vertices[target.usable] - y[back], axis=1)
     there = target.curvature[target.usable]
     residuals = Residuals(
-        energy=float(energy.sum()),
+        energy=float(value.sum()),
         misfit=_root_mean_square(gap, closest.weight),
         misfit_back=_root_mean_square(gap_back, closest.weight_back),
         curvature=correlation(source.curvature, points.interpolate(target.curvature), closest.weight),
         curvature_back=correlation(there, source.curvature[back], closest.weight_back),
         landmarks=0.0 if source.anchors is None else source.anchors.neg_log_likelihood(y),
     )
-    return Registered(y, points, energy / np.maximum(source.areas, np.finfo(float).tiny), residuals)
+    return Registered(y, points, value / np.maximum(source.areas, np.finfo(float).tiny), residuals)
 
 
 def both_ways(
-    source: DeformableMesh, target: DeformableMesh, found: Registered, views: tuple[View, View] | None = None
+    source: DeformableMesh, target: DeformableMesh, before: Registered, settings: RegistrationSettings
 ) -> Registered:
     """A registration improved by the opposite one: the target deformed onto the source starts where this one ended.
 
     The source settles again from the middle between where it lay and where the deformed target says it belongs: what
-    slides one way in the one slides the other way in the other. `views` as in `settled`.
+    slides one way in the one slides the other way in the other. The stages are `WAY_BACK` and `AFTER_RETURN`.
     """
-    begun = returning(source, target, found.y)
-    opposite = None if views is None else (views[1], views[0])
-    back = register(target, source, begun, BACK, growing=True, partial=True, views=opposite)
+    begun = returning(source, target, before.y)
+    back = register(target, source, begun, settings.reversed.with_stages(WAY_BACK))
     rows = target.moved_features(back.y)
     near = target.usable[cKDTree(rows[target.usable]).query(source.features)[1]]
     there = target.closest(source.features, rows, near).positions
-    return register(source, target, (found.y + there) / 2, AGAIN, growing=True, partial=True, views=views)
+    return register(source, target, (before.y + there) / 2, settings.with_stages(AFTER_RETURN))
 
 
 def returning(source: DeformableMesh, target: DeformableMesh, y: Floats) -> Floats:

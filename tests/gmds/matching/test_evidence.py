@@ -16,8 +16,9 @@ from gmds.landmarks.constraints import LandmarkConstraints
 from gmds.matching.evidence import Evidence, evidence
 from gmds.matching.pair import SurfacePair
 from gmds.matching.proposals import Proposal
-from gmds.registration.register import registered
+from gmds.registration.register import assessed
 from gmds.registration.residuals import Residuals
+from gmds.registration.settings import FULL
 from gmds.surface.measured import Surface, measure
 
 Index = NDArray[np.int64]
@@ -33,7 +34,7 @@ def weighed(
     """What speaks for a map of a surface to itself, or to its mirror image `theirs`."""
     pair = SurfacePair(mine, mine if theirs is None else theirs, landmarks, theirs is not None)
     points = SurfacePoints.at_vertices(pair.target.mesh, images)
-    whole = registered(*pair.full, points.positions, growing=True, partial=True).residuals
+    whole = assessed(*pair.full, points.positions, FULL).residuals
     simplified = Proposal.of(pair, points.positions[pair.simplified[0].origin]).residuals
     return evidence(pair, (mine.regular, pair.target.regular), points, simplified, whole)
 

@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 from geodesics import SurfacePoints
 from gmds import initialization
 from gmds.matching.pair import SurfacePair
-from gmds.matching.proposals import APART, PROPOSED, Proposal, Start, distinct, proposals, rough_maps
+from gmds.matching.proposals import MAPS_PER_METRIC, SAME_MAP, Proposal, Start, distinct, proposals, rough_maps
 from gmds.registration.deformable import DeformableMesh
-from gmds.registration.register import registered
+from gmds.registration.register import assessed
+from gmds.registration.settings import SIMPLIFIED
 from gmds.spectral.sample_maps import SampledPair
 from gmds.surface.measured import measure
 
@@ -86,7 +87,7 @@ def test_rough_maps_lead_from_outline_to_outline_and_every_second_is_reflected(n
     ours, theirs = pair.simplified
     maps = rough_maps(pair, [(pair.source.regular, pair.target.regular)], ALL)
     doubled = 1 if all(flip is None for flip in pair.reflections) else 2
-    assert 1 <= len(maps) <= doubled * PROPOSED and len(maps) % doubled == 0
+    assert 1 <= len(maps) <= doubled * MAPS_PER_METRIC and len(maps) % doubled == 0
     for images in maps:
         assert images.shape == (ours.mesh.n_vertices,)
         assert images.min() >= 0 and images.max() < theirs.mesh.n_vertices
@@ -127,10 +128,10 @@ def test_more_metrics_make_more_maps() -> None:
 def synthetic() -> tuple[DeformableMesh, list[Proposal]]:
     """Shifted copies of one map, the farther the worse: 0, 0.5, ... 4 times what keeps two maps apart."""
     deformable = DeformableMesh.of(surface(bumpy()))
-    base = registered(deformable, deformable, deformable.mesh.vertices, growing=False)
+    base = assessed(deformable, deformable, deformable.mesh.vertices, SIMPLIFIED)
     made = []
     for k in range(9):
-        y = base.y + np.array([0.5 * k * APART * 1.001, 0, 0])
+        y = base.y + np.array([0.5 * k * SAME_MAP * 1.001, 0, 0])
         points = SurfacePoints.closest(deformable.mesh, y)
         worse = replace(base, y=y, points=points, residuals=replace(base.residuals, misfit_back=0.01 + k))
         made.append(Proposal(worse, base))

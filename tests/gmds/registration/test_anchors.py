@@ -21,6 +21,7 @@ from gmds.matching.pair import SurfacePair
 from gmds.registration.anchors import HARD, Anchors
 from gmds.registration.deformable import DeformableMesh
 from gmds.registration.register import register
+from gmds.registration.settings import RegistrationSettings
 from gmds.shapes import humanoid, truth
 
 Array = NDArray[np.float64]
@@ -36,14 +37,13 @@ def anchors(tolerance: float, count: int = 4) -> tuple[Anchors, Array]:
 
 
 @pytest.mark.parametrize("tolerance", [0.02, 0.1, 1.0])
-def test_soft_springs_pull_as_the_likelihood_falls(tolerance: float) -> None:
+def test_soft_landmarks_pull_as_the_likelihood_falls(tolerance: float) -> None:
     marks, y = anchors(tolerance)
     energy, stiffness_weight, n = 1e-3, 1e-3, len(y)
     weights, ends = marks.added_to((np.zeros(n), np.zeros((n, 3))), y, stiffness_weight, energy)
     direction, step = RNG.standard_normal(y.shape), 1e-6
-    slope = (marks.neg_log_likelihood(y + step * direction) - marks.neg_log_likelihood(y - step * direction)) / (
-        2 * step
-    )
+    there, back = (marks.neg_log_likelihood(y + way * step * direction) for way in (1, -1))
+    slope = (there - back) / (2 * step)
     # of log sqrt(E) the slope is that of E / (2 E); the system of the registration has that of E / 4, weighted
     pull = weights[:, None] * (y - ends)
     assert 2 * (pull * direction).sum() / (stiffness_weight * energy) == pytest.approx(slope, rel=1e-5)
@@ -61,7 +61,7 @@ def test_a_landmark_missed_by_many_tolerances_pulls_ever_less() -> None:
     assert pulls == pytest.approx([p * pulls[0] for p in [f / (1 + f**2) * (1 + far[0] ** 2) / far[0] for f in far]])
 
 
-def test_springs_that_were_there_stay_and_hard_ones_rule() -> None:
+def test_point_constraints_that_were_there_stay_and_hard_landmarks_rule() -> None:
     marks, y = anchors(0.0, 2)
     before = RNG.random(len(y)) * 1e-3, RNG.standard_normal(y.shape)
     weights, ends = marks.added_to(before, y, 1e-3, 0.5)
@@ -77,11 +77,11 @@ def test_registration_brings_hard_landmarks_home() -> None:
     pair = SurfacePair(mine, mine, place_landmarks((on, to), bumpy(), bumpy()).constraints)
     source, target = pair.full
     assert source.anchors is not None and target.anchors is not None
-    found = register(source, target, mine.mesh.vertices, growing=True)
+    found = register(source, target, mine.mesh.vertices, RegistrationSettings())
     assert np.linalg.norm(source.anchors.positions(found.y) - source.anchors.ends, axis=1).max() < 2e-3
-    back = register(target, source, mine.mesh.vertices, growing=True)
+    back = register(target, source, mine.mesh.vertices, RegistrationSettings())
     assert np.linalg.norm(target.anchors.positions(back.y) - target.anchors.ends, axis=1).max() < 2e-3
-    free = register(DeformableMesh.of(mine), DeformableMesh.of(mine), mine.mesh.vertices, growing=True)
+    free = register(DeformableMesh.of(mine), DeformableMesh.of(mine), mine.mesh.vertices, RegistrationSettings())
     assert free.residuals.landmarks == 0 and free.residuals.cost == free.residuals.energy < found.residuals.cost
 
 

@@ -17,12 +17,15 @@ from geodesics import Mesh
 from geodesics.closest import closest_on_triangles
 from gmds.deformations import bending, local_scaling
 from gmds.registration.deformable import DeformableMesh
-from gmds.registration.register import FINE, correlation, register
+from gmds.registration.energies import ALL, AsRigidAsPossible, AsSimilarAsPossible, EnergyKind
+from gmds.registration.register import correlation, register
 from gmds.registration.residuals import LEAST, Residuals
+from gmds.registration.settings import FINE, RegistrationSettings, Stage
 from gmds.surface.measured import measure
 
 Array = NDArray[np.float64]
 Pair = tuple[DeformableMesh, DeformableMesh, Array]
+RIGID, SIMILAR = RegistrationSettings(energy=AsRigidAsPossible), RegistrationSettings(energy=AsSimilarAsPossible)
 FAIR = Residuals(energy=0.3, misfit=0.01, misfit_back=0.02, curvature=0.8, curvature_back=0.7)
 
 
@@ -72,23 +75,23 @@ def off(places: Array, truth: Array) -> float:
     return float(np.linalg.norm(places - truth, axis=1).mean())
 
 
-@pytest.mark.parametrize("growing", [True, False])
+@pytest.mark.parametrize("energy", ALL, ids=lambda kind: kind.__name__)
 @pytest.mark.parametrize(("amount", "share"), [(0.03, 0.35), (0.1, 0.15)])
-def test_a_noisy_map_to_another_pose_gets_close_to_the_truth(amount: float, share: float, growing: bool) -> None:
+def test_a_noisy_map_to_another_pose_gets_close_to_the_truth(amount: float, share: float, energy: EnergyKind) -> None:
     source, target, truth = posed()
     start = noisy(truth, amount)
-    found = register(source, target, start, growing=growing)
+    found = register(source, target, start, RegistrationSettings(energy=energy))
     assert off(found.points.positions, truth) < share * off(start, truth)
     assert off(found.points.positions, truth) < 0.02  # an edge is 0.04
     assert found.residuals.misfit < 0.006 and found.residuals.misfit_back < 0.02
     assert found.residuals.curvature > 0.85 and found.residuals.curvature_back > 0.8
 
 
-@pytest.mark.parametrize("growing", [True, False])
+@pytest.mark.parametrize("energy", ALL, ids=lambda kind: kind.__name__)
 @pytest.mark.parametrize(("name", "least"), [("turned", 1e-3), ("turned animal", 6e-3), ("bent", 8e-3)])
-def test_a_copy_that_was_turned_or_bent_is_found_vertex_by_vertex(name: str, least: float, growing: bool) -> None:
+def test_a_copy_that_was_turned_or_bent_is_found_vertex_by_vertex(name: str, least: float, energy: EnergyKind) -> None:
     source, target, truth = deformed(name)
-    found = register(source, target, noisy(truth, 0.05), growing=growing)
+    found = register(source, target, noisy(truth, 0.05), RegistrationSettings(energy=energy))
     assert off(found.points.positions, truth) < least
     assert found.residuals.energy < 0.1
     assert found.residuals.misfit < 4e-3
@@ -97,7 +100,7 @@ def test_a_copy_that_was_turned_or_bent_is_found_vertex_by_vertex(name: str, lea
 @pytest.mark.parametrize("amount", [0.03, 0.08])
 def test_where_a_part_grew_it_pays_to_let_it(amount: float) -> None:
     source, target, truth = deformed("grown")
-    plain, grown = (register(source, target, noisy(truth, amount), growing=growing) for growing in (False, True))
+    plain, grown = (register(source, target, noisy(truth, amount), settings) for settings in (RIGID, SIMILAR))
     assert off(grown.points.positions, truth) < 2e-3
     assert off(grown.points.positions, truth) < 0.1 * off(plain.points.positions, truth)
     assert grown.residuals.energy < 0.1 * plain.residuals.energy
@@ -107,8 +110,8 @@ def test_the_mirrored_map_costs_more_than_the_right_one() -> None:
     source, target, _ = posed()
     flipped = gmds.shapes.truth(animal(), animal("walk", 1), mirrored=True)
     corners = target.mesh.vertices[animal("walk", 1).faces[flipped.face]]
-    wrong = register(source, target, (flipped.barycentric[:, :, None] * corners).sum(1), growing=True)
-    right = register(source, target, posed()[2], growing=True)
+    wrong = register(source, target, (flipped.barycentric[:, :, None] * corners).sum(1), SIMILAR)
+    right = register(source, target, posed()[2], SIMILAR)
     assert wrong.residuals.energy > 4 * right.residuals.energy
     assert wrong.residuals.neg_log_likelihood > right.residuals.neg_log_likelihood + 1
 
@@ -119,7 +122,7 @@ def test_what_the_target_lacks_is_not_squeezed_to_its_boundary(axis: int, sign: 
     source, whole, truth = deformed("turned")
     target, kept = cut(whole, axis, sign)
     start = noisy(truth, 0.03)
-    plain, partial = (register(source, target, start, growing=False, partial=partial) for partial in (False, True))
+    plain, partial = (register(source, target, start, replace(RIGID, partial=partial)) for partial in (False, True))
     assert off(partial.y[kept], truth[kept]) < 0.6 * off(plain.y[kept], truth[kept])
     assert off(partial.y[kept], truth[kept]) < 0.02
     lost = ~kept & (np.linalg.norm(truth - target.mesh.vertices[target.places.query(truth)[1]], axis=1) > 0.1)
@@ -132,7 +135,7 @@ def test_what_the_target_lacks_is_not_squeezed_to_its_boundary(axis: int, sign: 
 
 def test_points_are_closest_to_where_the_vertices_are() -> None:
     source, target, truth = posed()
-    found = register(source, target, truth, growing=True)
+    found = register(source, target, truth, SIMILAR)
     gap = np.linalg.norm(found.points.positions - found.y, axis=1)
     least = closest_on_triangles(found.y, target.mesh.vertices, target.mesh.faces)[2]
     assert (gap >= least - 1e-12).all() and (gap - least).mean() < 4e-3  # normals have a say too
@@ -143,7 +146,9 @@ def test_points_are_closest_to_where_the_vertices_are() -> None:
 
 def test_a_softer_surface_fits_better() -> None:
     source, target, truth = posed()
-    stiff, soft = (register(source, target, truth, ((s, 6), (s, 6)), growing=True) for s in (3e-2, FINE[-1][0]))
+    stiff, soft = (
+        register(source, target, truth, SIMILAR.with_stages((Stage(s, 6), Stage(s, 6)))) for s in (3e-2, FINE[-1][0])
+    )
     assert soft.residuals.misfit < 0.5 * stiff.residuals.misfit
     assert soft.residuals.energy > stiff.residuals.energy
 
@@ -153,7 +158,7 @@ def test_a_hopeless_map_is_finite(start: str) -> None:
     source, target = DeformableMesh.of(surface(bumpy())), DeformableMesh.of(measure(shapes.torus(20, 10)))
     images = np.zeros_like(source.mesh.vertices) + (100.0 if start == "far away" else 0.0)
     for partial in (False, True):
-        found = register(source, target, images, growing=True, partial=partial)
+        found = register(source, target, images, replace(SIMILAR, partial=partial))
         assert np.isfinite(found.y).all() and np.isfinite(list(vars(found.residuals).values())).all()
         assert np.isfinite(found.residuals.neg_log_likelihood)
 

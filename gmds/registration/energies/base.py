@@ -1,0 +1,108 @@
+"""What a deformation energy is, and what those share that compare edges with turned ones."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from geodesics.arrays import Floats
+from geodesics.caching import cached_property
+from gmds._kernels.rotations import nearest_rotations
+from gmds.registration.laplacian import CotangentLaplacian
+from gmds.registration.stiffness import StiffnessSystem
+
+
+class Energy(Protocol):
+    """What it costs to move the vertices x (n, 3) of a surface to y (n, 3): quadratic once a local step is done.
+
+    With `local` held, the gradient of the total is 4 (K y - right_hand_side(local)), K the matrix of `system`.
+    """
+
+    @property
+    def system(self) -> StiffnessSystem:
+        """The stiffness matrix K (n, n), and the systems made of it."""
+
+    def local_step(self, y: Floats) -> Floats:
+        """The local unknowns of least energy, a matrix (n, 3, 3) a vertex, for vertices at y (n, 3)."""
+
+    def right_hand_side(self, local: Floats) -> Floats:
+        """What K y has to be (n, 3) for the vertices that go best with the local unknowns."""
+
+    def value(self, y: Floats, local: Floats) -> Floats:
+        """The energy (n,) around each vertex."""
+
+
+EnergyKind = Callable[[CotangentLaplacian], Energy]
+
+
+@dataclass(frozen=True, eq=False)
+class LocalGlobalEnergy(ABC):
+    """The energy sum_ij w_ij |y_i - y_j - s_i R_i (x_i - x_j)|^2 of moving the vertices x of a mesh to y.
+
+    R_i are rotations, s_i the sizes that subclasses choose, w_ij cotangent weights, so that flat stretch costs its
+    Dirichlet energy. The local step finds the similarities s_i R_i, the global step the vertices (Sorkine and Alexa
+    2007).
+    """
+
+    laplacian: CotangentLaplacian
+
+    @abstractmethod
+    def sizes(self, sums: Floats) -> Floats:
+        """s_i (n,), where `sums` (n,) are tr(R_i^T sum_j w_ij (x_i - x_j)(y_i - y_j)^T) of the best rotations."""
+
+    @property
+    def system(self) -> StiffnessSystem:
+        """The Laplacian."""
+        return self.laplacian.system
+
+    def local_step(self, y: Floats) -> Floats:
+        """The similarities s_i R_i (n, 3, 3) that go best with vertices at y (n, 3)."""
+        rotations, sums = nearest_rotations(self.products(y))
+        return np.asarray(rotations * self.sizes(sums)[:, None, None], dtype=np.float64)
+
+    def right_hand_side(self, local: Floats) -> Floats:
+        """What L y has to be (n, 3) for the vertices that go best with the matrices (n, 3, 3)."""
+        x, lx = self.laplacian.mesh.vertices, self._rest[0]
+        around = (self.laplacian.weights @ local.reshape(-1, 9)).reshape(-1, 3, 3)
+        turned = np.einsum("nab,nb->na", local, x)
+        total = apply(local, lx) + apply(around, x) - self.laplacian.weights @ turned
+        return np.asarray(0.5 * total, dtype=np.float64)
+
+    def value(self, y: Floats, local: Floats) -> Floats:
+        """The energy (n,) around each vertex."""
+        squares = np.einsum("nab,nab->n", local, local) / 3
+        mixed = np.einsum("nba,nab->n", local, self.products(y))
+        return np.maximum(self.spread(y) - 2 * mixed + squares * self.rest_spread, 0.0)
+
+    @property
+    def rest_spread(self) -> Floats:
+        """sum_j w_ij |x_i - x_j|^2 (n,)."""
+        return self._rest[2]
+
+    @cached_property
+    def _rest(self) -> tuple[Floats, Floats, Floats]:
+        """L x and W x (n, 3), and the spread of x (n,)."""
+        x = self.laplacian.mesh.vertices
+        return self.laplacian.matrix @ x, self.laplacian.weights @ x, self.spread(x)
+
+    def products(self, y: Floats) -> Floats:
+        """sum_j w_ij (x_i - x_j)(y_i - y_j)^T, (n, 3, 3)."""
+        x, wx = self.laplacian.mesh.vertices, self._rest[1]
+        outer = (x[:, :, None] * y[:, None, :]).reshape(-1, 9)
+        products = x[:, :, None] * (self.laplacian.matrix @ y)[:, None, :] - wx[:, :, None] * y[:, None, :]
+        return np.asarray(products + (self.laplacian.weights @ outer).reshape(-1, 3, 3), dtype=np.float64)
+
+    def spread(self, y: Floats) -> Floats:
+        """sum_j w_ij |y_i - y_j|^2 (n,)."""
+        weights, square = self.laplacian.weights, np.einsum("na,na->n", y, y)
+        cross = np.einsum("na,na->n", y, weights @ y)
+        return np.asarray(self.laplacian.matrix.diagonal() * square - 2 * cross + weights @ square, dtype=np.float64)
+
+
+def apply(matrices: Floats, rows: Floats) -> Floats:
+    """Each matrix (n, 3, 3) times its row (n, 3)."""
+    return np.asarray(np.einsum("nab,nb->na", matrices, rows), dtype=np.float64)

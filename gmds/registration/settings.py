@@ -1,0 +1,57 @@
+"""How a registration goes: in which stages, against which energy, and what takes part in it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+from gmds.registration.energies import AsRigidAsPossible, AsSimilarAsPossible, EnergyKind
+from gmds.surface.view import View
+
+
+class Stage(NamedTuple):
+    """Some steps at one stiffness: an area, the square of the distance over which misfits are averaged."""
+
+    stiffness_weight: float
+    steps: int
+
+
+Stages = tuple[Stage, ...]
+
+TO_IMAGES: Stages = (Stage(3e-2, 6),)  # towards the images given, before the target is looked at
+COARSE: Stages = (Stage(1e-2, 4), Stage(3e-3, 4))
+FINE: Stages = (Stage(1e-3, 4), Stage(5e-4, 4))
+REFINEMENT: Stages = (Stage(3e-3, 4), *FINE)  # of a map that is good already
+SPECTRAL: Stages = (Stage(1e-3, 5), Stage(5e-4, 4))  # with eigenfunctions, from where the source lies
+WAY_BACK: Stages = (Stage(3e-3, 4), Stage(3e-3, 3), Stage(1e-3, 3))
+AFTER_RETURN: Stages = (Stage(1e-3, 3), Stage(1e-3, 3), Stage(5e-4, 3))
+
+
+@dataclass(frozen=True, eq=False)
+class RegistrationSettings:
+    """How a source is deformed onto a target.
+
+    `stages`: in the first the source follows the images given, in the others the closest points; `energy`: what holds
+    against that; `partial`: whether what is closest to a boundary is left alone, as what it belongs to may be missing;
+    `views`, of both undeformed surfaces: whether eigenfunctions take part in the search for closest points.
+    """
+
+    stages: Stages = (*TO_IMAGES, *COARSE, *FINE)
+    energy: EnergyKind = AsSimilarAsPossible
+    partial: bool = False
+    views: tuple[View, View] | None = None
+
+    def with_stages(self, stages: Stages) -> RegistrationSettings:
+        """The same in other stages."""
+        return replace(self, stages=stages)
+
+    @property
+    def reversed(self) -> RegistrationSettings:
+        """The same with source and target exchanged."""
+        return self if self.views is None else replace(self, views=(self.views[1], self.views[0]))
+
+
+SIMPLIFIED = RegistrationSettings((*TO_IMAGES, *COARSE), AsRigidAsPossible)
+"""Of simplified meshes: parts keep their sizes, or a wrong map could be explained by growth."""
+FULL = RegistrationSettings((COARSE[0], *COARSE, *FINE), AsSimilarAsPossible, partial=True)
+"""Of surfaces with all their faces: parts may change size, and parts may be missing."""
