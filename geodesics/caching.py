@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from typing import Any, Generic, Self, TypeVar, overload
 
 import numpy as np
@@ -14,7 +14,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 
 def memoized(function: F) -> F:
-    """Keep `function(obj)` on `obj` itself: objects never change, so results never go stale.
+    """Keep `function(obj)`, or `function(obj, key)` for each key, on `obj`, which never changes: nothing goes stale.
 
     Arrays in the result are made read-only, because every later caller is handed the same ones. The result lives as
     long as the object; two threads may both compute it, and then both see the one that was kept.
@@ -22,7 +22,12 @@ def memoized(function: F) -> F:
     key = _key(function)
 
     @functools.wraps(function)
-    def wrapper(obj: Any) -> Any:
+    def wrapper(obj: Any, *arguments: Hashable) -> Any:
+        if arguments:
+            kept = obj.__dict__.setdefault(key, {})
+            if arguments not in kept:
+                return kept.setdefault(arguments, _frozen(function(obj, *arguments)))
+            return kept[arguments]
         if key not in obj.__dict__:
             return obj.__dict__.setdefault(key, _frozen(function(obj)))
         return obj.__dict__[key]

@@ -7,10 +7,12 @@ import numpy as np
 from geodesics._kernels.jit import njit
 from geodesics.arrays import Floats
 
-_STEPS = 60
-_SWEEPS = 12
-_TOLERANCE = 1e-14  # of the eigenvalue
-_CLEAR = 1e-4  # slope of the characteristic polynomial, over the cube of where, that Newton's steps can rely on
+_STEPS = 60  # of Newton, at the most: a bound
+_SWEEPS = 12  # of Jacobi, at the most: a bound, they converge quadratically
+_TOLERANCE = 1e-14  # of the eigenvalue, relative: some fifty roundings
+# Slope of the characteristic polynomial at the root, over the cube of the root, that Newton can rely on: set by hand,
+# the tests compare both ways around it.
+_CLEAR = 1e-4
 
 
 @njit

@@ -9,9 +9,9 @@ import numpy as np
 from geodesics.arrays import Integers
 from gmds.spectral.sample_maps import SampledPair
 
-FUNCTIONS = 5  # whose signs are tried
-CLOSE = 0.25  # relative gap below which two eigenvalues may have changed places
-MOST_ORDERS = 4
+FUNCTIONS = 5  # whose signs are tried: 32 starts an order; set by hand
+CLOSE_VALUES = 0.25  # relative gap below which two eigenvalues may have changed places; set by hand
+MOST_ORDERS = 4  # a bound on the time
 
 
 def eigenfunction_signs(pair: SampledPair) -> list[Integers]:
@@ -37,7 +37,7 @@ def _orders(pair: SampledPair, count: int) -> list[list[int]]:
     orders = [list(range(count))]
     for i in range(count - 1):
         values = np.stack([pair.source.eigenvalues[i + 1 : i + 3], pair.target.eigenvalues[i + 1 : i + 3]])
-        if ((values[:, 1] - values[:, 0]) < CLOSE * values[:, 1]).any():
+        if ((values[:, 1] - values[:, 0]) < CLOSE_VALUES * values[:, 1]).any():
             for order in list(orders)[: MOST_ORDERS - len(orders)]:
                 swapped = order.copy()
                 swapped[i], swapped[i + 1] = swapped[i + 1], swapped[i]

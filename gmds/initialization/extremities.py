@@ -12,10 +12,10 @@ from gmds.spectral.functional_maps import nearest_rows
 from gmds.spectral.sample_maps import SampledPair
 from gmds.surface.view import View
 
-MOST = 7  # extremities of a surface: 7! assignments are still quick to score
-BEST = 32  # assignments kept
-RINGS = 3  # around a local maximum
-APART = 0.3  # of the largest distance from the centre
+MOST = 7  # extremities of a surface: a bound, 7! assignments are still quick to score
+BEST = 32  # assignments kept; set by hand
+RINGS = 3  # around a local maximum in which nothing is farther; set by hand
+LEAST_GAP = 0.3  # between extremities, of the largest distance from the centre; set by hand
 
 
 def extremities(pair: SampledPair) -> list[Integers]:
@@ -54,7 +54,7 @@ def surface_extremities(view: View) -> Integers:
     kept: list[int] = []
     for peak in peaks:
         gaps = np.linalg.norm(embedding[kept] - embedding[peak], axis=1)
-        if (gaps > APART * np.sqrt(far[peaks[0]])).all():
+        if (gaps > LEAST_GAP * np.sqrt(far[peaks[0]])).all():
             kept.append(int(peak))
     return np.array(kept[:MOST], dtype=np.int64)
 

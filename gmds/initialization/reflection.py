@@ -11,9 +11,10 @@ from gmds.spectral.sample_maps import COARSE, SampledPair
 from gmds.surface.measured import Surface
 from gmds.surface.view import View
 
-EARLY = 3  # steps of refinement before the unlikely are dropped
-LIKELY = 16  # that are not
-MOST_STRESS = 0.2  # relative: above, a self-map is no symmetry
+# All set by hand.
+FIRST_STEPS = 3  # of refinement, before the unlikely are dropped
+KEPT = 16  # that are refined to the end
+MOST_STRESS = 0.2  # relative change of distances above which a self-map is no symmetry
 REVERSED = -0.3  # orientation score below which a self-map counts as reversing
 
 
@@ -24,9 +25,9 @@ def mirror(surface: Surface, view: View) -> Integers | None:
     all signs of the first few are tried, and the likely ones refined to the end.
     """
     pair = SampledPair.of(view, view, -1)
-    begun = pair.all_refined(eigenfunction_signs(pair), COARSE[:EARLY])
-    likely = np.argsort([pair.stress(images) for images in begun], kind="stable")[:LIKELY]
-    maps = pair.all_refined([begun[i] for i in likely], COARSE[EARLY:])
+    begun = pair.all_refined(eigenfunction_signs(pair), COARSE[:FIRST_STEPS])
+    likely = np.argsort([pair.stress(images) for images in begun], kind="stable")[:KEPT]
+    maps = pair.all_refined([begun[i] for i in likely], COARSE[FIRST_STEPS:])
     for i in np.argsort([pair.stress(images) for images in maps], kind="stable"):
         if pair.stress(maps[i]) > MOST_STRESS:
             return None

@@ -10,18 +10,19 @@ from geodesics.arrays import Integers
 from geodesics.threads import side_by_side
 from gmds.spectral.sample_maps import COARSE, SampledPair
 
+# All set by hand.
+FIRST_STEPS = 3  # of refinement, before all but TRIED are dropped
 TRIED = 64  # starts that are refined to the end
 DISTINCT = 0.12  # of the mean distance: how far apart two maps must be to count as two
-EARLY = 3  # steps of refinement before the rest is dropped
 
 
 def shortlist(
     pair: SampledPair, starts: Sequence[Callable[[SampledPair], list[Integers]]], count: int
 ) -> list[Integers]:
     """At most `count` sample maps, all apart from each other, those of least stress first."""
-    begun = pair.all_refined([images for start in starts for images in start(pair)], COARSE[:EARLY])
+    begun = pair.all_refined([images for start in starts for images in start(pair)], COARSE[:FIRST_STEPS])
     begun = [begun[i] for i in _by_stress(pair, begun)[:TRIED]]
-    done = pair.all_refined(begun, COARSE[EARLY:])
+    done = pair.all_refined(begun, COARSE[FIRST_STEPS:])
     kept: list[Integers] = []
     for i in _by_stress(pair, done):
         if len(kept) < count and all(pair.gap(done[i], other) > DISTINCT for other in kept):

@@ -14,8 +14,8 @@ from geodesics.errors import Note
 from gmds.errors import LandmarkError
 from gmds.landmarks.placed import PlacedLandmarks
 
-FARTHEST_LANDMARK = 0.05  # of the diagonal of the bounding box
-TOLERANCE = 0.05  # of soft landmarks
+FARTHEST_LANDMARK = 0.05  # of the diagonal of the bounding box, off the surface: a convention, beyond is a mistake
+TOLERANCE = 0.05  # of soft landmarks, in root areas of the target: a convention
 
 
 def check_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> tuple[SurfacePoints, SurfacePoints]:

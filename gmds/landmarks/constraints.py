@@ -8,6 +8,7 @@ import numpy as np
 
 from geodesics import SurfacePoints
 from geodesics.arrays import Bools, Floats, Integers
+from geodesics.barycentric import combination
 from geodesics.closest import closest_on_triangles
 
 
@@ -31,7 +32,7 @@ class WeightedCorners:
 
     def positions(self, vertices: Floats) -> Floats:
         """Where they are (k, 3)."""
-        return np.asarray(np.einsum("kc,kcj->kj", self.weights, vertices[self.corners]), dtype=np.float64)
+        return combination(self.weights, vertices[self.corners])
 
     @property
     def vertices(self) -> Integers:

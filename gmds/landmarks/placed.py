@@ -14,7 +14,7 @@ from geodesics.points import mixed
 from gmds.correspondence import Correspondence
 from gmds.landmarks.constraints import LandmarkConstraints, WeightedCorners
 
-DOUBTFUL = 3  # tolerances by which a map misses a soft landmark that may be wrong
+DOUBTFUL = 3  # tolerances by which a map misses a soft landmark that may be wrong: a convention
 
 
 @dataclass(frozen=True, eq=False)

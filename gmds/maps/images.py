@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from geodesics import intrinsic
 from geodesics.arrays import Bools, Floats
+from geodesics.barycentric import combination
 from geodesics.closest import closest_on_triangles
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
@@ -14,7 +15,7 @@ from gmds.errors import MapError
 from gmds.maps.point_map import PointMap
 
 FAR = 0.05  # of sqrt(target area): the distance at which the protocol stops calling a point well matched
-TORN = 5.0  # an image edge stretched more than this, and longer than 2 FAR, crosses a tear of the map
+TORN = 5.0  # an image edge stretched more than this, and longer than 2 FAR, crosses a tear of the map; set by hand
 
 
 def preimage(answer: PointMap, vertices: ArrayLike) -> tuple[SurfacePoints, Floats]:
@@ -56,11 +57,11 @@ def image(answer: PointMap, points: SurfacePoints) -> tuple[SurfacePoints, Bools
     inside = weights.max(axis=1) < 1 - 1e-12
     same = inside & (corner_face == corner_face[:, :1]).all(axis=1)
     face[same] = corner_face[same, 0]
-    barycentric[same] = np.einsum("pk,pkj->pj", weights[same], corner_weights[same])
+    barycentric[same] = combination(weights[same], corner_weights[same])
     torn = _torn(answer.source, answer.points.positions, np.sqrt(answer.target.area))[points.face]
     mixed = np.flatnonzero(inside & ~same & ~torn)
     if len(mixed):
-        mean = np.einsum("pk,pkj->pj", weights[mixed], position[mixed])
+        mean = combination(weights[mixed], position[mixed])
         face[mixed], barycentric[mixed], _ = closest_on_triangles(mean, answer.target.vertices, answer.target.faces)
 
     valid = np.all(answer.valid[corners] | (weights <= 0), axis=1)

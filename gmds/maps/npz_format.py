@@ -25,7 +25,7 @@ from gmds.files.npz import DAMAGED, PickledArray, opened, read_header, read_memb
 
 FORMAT, VERSION = "gmds-map", 1
 DTYPES = {"face": "<i4", "barycentric": "<f8", "vertex": "<i8", "valid": "|b1", "distortion": "<f4", "meta": "|u1"}
-MAX_META_BYTES = 16_000_000
+MAX_META_BYTES = 16_000_000  # a bound on memory; what `match` writes has a few thousand
 
 T = TypeVar("T")
 Arrays = dict[str, NDArray[Any]]

@@ -19,9 +19,11 @@ from gmds.spectral.extension import extend
 from gmds.spectral.refinement import ROUNDS, upsampled
 from gmds.surface.view import View
 
-FUNCTIONS = 60  # eigenfunctions of the dense map
-TIME = 3e-3  # of the diffusion distance that the solver compares, in units of the area
-ITERATIONS = 20
+FUNCTIONS = 60  # eigenfunctions of the dense map; set by hand
+# Of the diffusion distance that the solver compares, in units of the area: better than 1e-3 and than the biharmonic
+# distance on development pairs, as good as commute time (benchmarks/results/notes.md, "Embedding").
+TIME = 3e-3
+ITERATIONS = 20  # of the solver, at the most: with as many the figures of notes.md, "Embedding", were measured
 
 
 class GivenDistances(NamedTuple):

@@ -14,9 +14,9 @@ from gmds.registration.residuals import Residuals
 from gmds.spectral.orientation import orientation_score
 from gmds.surface.view import View
 
-FUNCTIONS = 40
-SAMPLES = 500  # between which the stress is taken
-LEAST_FOLDED = 1e-3  # twice a share of the area: so much is folded over at a vertex of any triangulation
+FUNCTIONS = 40  # eigenfunctions of the commute-time distance that stress is measured in; set by hand
+SAMPLES = 500  # between which it is taken; set by hand
+LEAST_FOLDED = 1e-3  # twice a share of the area, a bound: any triangulation folds over so much at some vertex
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ import numpy as np
 
 from geodesics import SurfacePoints
 from geodesics.arrays import Floats, Integers
+from geodesics.barycentric import combination
 from geodesics.caching import memoized
 from geodesics.closest import closest_on_triangles
 from geodesics.repair.decimation import decimated
@@ -19,8 +20,10 @@ from gmds.registration.deformable import DeformableMesh
 from gmds.spectral.orientation import orientation_score
 from gmds.surface.measured import Surface, measure, on_original
 
-WORKING = 5000  # vertices of the copy
-LARGE = 8000  # vertices up to which a surface is matched as it is
+# Vertices of the copy, and those up to which a surface is matched as it is: whole SHREC'20 animals take 13 CPU seconds
+# as copies instead of 31 (benchmarks/results/notes.md, "Speed of a match").
+WORKING = 5000
+LARGE = 8000
 
 
 def copied(surface: Surface, n_vertices: int) -> Surface:
@@ -71,7 +74,7 @@ class CoarseCopies:
         """
         face, weights, _ = closest_on_triangles(self.source.mesh.vertices, self._places[0], answer.source.faces)
         corners = answer.source.faces[face]
-        share = np.einsum("pk,pk->p", weights, answer.valid[corners].astype(np.float64))
+        share = combination(weights, answer.valid[corners].astype(np.float64))
         used = np.zeros(self.source.mesh.n_vertices, dtype=bool)
         used[np.unique(self.source.mesh.faces)] = True
         return Correspondence(
@@ -79,7 +82,7 @@ class CoarseCopies:
             target=self.target.original,
             points=self._sent(answer.points, corners, weights),
             valid=used & (share > 0.5),
-            distortion=np.einsum("pk,pk->p", weights, answer.distortion[corners]),
+            distortion=combination(weights, answer.distortion[corners]),
             status=answer.status,
             candidates=tuple(self._candidate(one, corners, weights) for one in answer.candidates),
             meta={**answer.meta, "solved_vertices": [copy.mesh.n_vertices for copy in self.copies]},
@@ -100,8 +103,8 @@ class CoarseCopies:
     def _sent(self, points: SurfacePoints, corners: Integers, weights: Floats) -> SurfacePoints:
         """Where weighted corners (n, 3) of the copy of the source go on the whole target, if `points` is the map."""
         here, there = _whole(self.source), _whole(self.target)
-        ends = np.einsum("pk,pkj->pj", points.barycentric, self._places[1][points.mesh.faces[points.face]])
-        y = np.einsum("pk,pkj->pj", weights, ends[corners])
+        ends = points.interpolate(self._places[1])
+        y = combination(weights, ends[corners])
         features = here.moved_features(y)
         turned = orientation_score(here.mesh, there.mesh, y, there.normals[there.places.query(y, workers=threads())[1]])
         features[:, 3:] *= np.sign(turned) or 1.0

@@ -18,7 +18,7 @@ from gmds.registration.deformable import DeformableMesh
 from gmds.spectral.refinement import Refiner
 from gmds.surface.measured import Surface
 
-WEIGHT = 10  # samples that a landmark is worth
+WEIGHT = 10  # samples that a hard landmark counts as when a map is extended; set by hand
 
 
 @dataclass(frozen=True, eq=False)

@@ -30,13 +30,17 @@ from gmds.suggestions import suggest_keywords
 from gmds.surface.measured import Surface, measure, view_of
 from gmds.surface.view import View
 
-FEWEST_SAMPLES = 3
+FEWEST_SAMPLES = 3  # fewer leave a surface free to turn
 
-SAMPLES = 300
-ENOUGH_HARD = 3  # hard landmarks that need no other starts
-ENOUGH = 6  # landmarks of any kind that need none: should one be wrong, the others outweigh it
-EMBEDDED = 3  # maps of a pair whose samples are placed by the solver
-SHORTFALL = 0.8  # of log-likelihood from the best, at which no map of development pairs was the answer in the end
+SAMPLES = 300  # of each surface, placed by the solver: with as many it was measured (benchmarks/results/notes.md)
+# Hard landmarks, and landmarks of any kind, that need no other starts: chosen on development pairs of SHREC'20
+# (benchmarks/results/notes.md, "Landmarks"). With fewer than six, a wrong one does less harm beside the other starts.
+ENOUGH_HARD = 3
+ENOUGH = 6
+EMBEDDED = 3  # maps of a pair, at the most, whose samples are placed: each costs 0.8 CPU seconds; set by hand
+# Of log-likelihood from the best: no map that fell short by more was the answer on 15 development pairs, the farthest
+# by 0.05 (benchmarks/results/notes.md, "Speed of a match").
+SHORTFALL = 0.8
 REFLECTED = {"preserve": (False,), "reverse": (True,), "any": (False, True)}
 
 Report = Callable[[str, float], None]

@@ -13,12 +13,16 @@ from gmds.registration.register import Registered, both_ways, settled
 from gmds.registration.settings import FULL, REFINEMENT, SPECTRAL, RegistrationSettings
 from gmds.spectral.refinement import ROUNDS, upsampled
 
-LATER_ROUNDS = tuple(range(1, len(ROUNDS)))  # rounds of alignment of a map that is good already
-FINE_LADDER = (40, 50, 60, 70, 80, 90, 100)  # numbers of eigenfunctions for such a map
-REPEATS = 2  # more refinements, if each pays
-RETURNS = 2  # registrations there and back
-GAIN = 0.005  # share of the energy by which each must lower it, where parts changed size
-SPECTRAL_GAIN = 0.08  # and by which eigenfunctions must: more where no part changed size, less across species
+LATER_ROUNDS = tuple(range(1, len(ROUNDS)))  # of the alignment: the first is for rough maps
+# Numbers of eigenfunctions for a map that is good already: 160 were no better than 100 on development pairs
+# (benchmarks/results/notes.md, "Refinement, one after the other").
+FINE_LADDER = (40, 50, 60, 70, 80, 90, 100)
+REPEATS = 2  # more refinements, at the most: they gain little (the same table)
+RETURNS = 2  # registrations there and back, at the most: a third gains at most 0.03 (as SPECTRAL_GAIN below)
+GAIN = 0.005  # share of the energy that each must save without eigenfunctions; set by hand
+# Share of the energy that eigenfunctions must save: on development pairs they save 10 to 30 % where parts keep their
+# sizes, and at most 6 % where they do not, and there the error rises ("Eigenfunctions in the registration" there).
+SPECTRAL_GAIN = 0.08
 
 
 def polished(candidate: MapCandidate, progress: Callable[[float], None] | None = None) -> MapCandidate:

@@ -22,11 +22,15 @@ from gmds.surface.view import View
 
 Start = Callable[[SampledPair], list[Integers]]
 
-MAPS_PER_METRIC = 16  # that are proposed
-LEAST_SETTLED = 8  # of them all, at the least, are registered to the end
-MOST_RETURNED = 12  # of these, the most likely, are registered the way back as well
-SAME_BEGINNING = 0.03  # root mean square gap, in root areas, below which maps that have only begun lead to the same
-SAME_MAP = 0.05  # root mean square gap, in root areas, below which two maps are one
+MAPS_PER_METRIC = 16  # proposed: what is weighed in benchmarks/results/notes.md, "Choice by elastic energy"
+LEAST_SETTLED = 8  # maps, at the least, that are registered to the end; set by hand
+# Maps, the most likely, that are registered the way back as well: the three best of 32 were among the first 12 on six
+# development pairs (benchmarks/results/notes.md, "Speed of a match").
+MOST_RETURNED = 12
+# Root mean square gaps, in root areas, below which two maps that have only begun lead to the same, and below which two
+# maps are one. The first saves 0.3 CPU seconds (the same file, "Faster by a third"). Both set by hand.
+SAME_BEGINNING = 0.03
+SAME_MAP = 0.05
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,16 +16,25 @@ from gmds.matching.candidates import MapCandidate
 from gmds.provenance import versions
 from gmds.surface.measured import on_original
 
-MOST_STRESS = 0.2  # relative stress above which distances count as badly kept
-LEAST_CURVATURE = 0.2  # correlation of curvature below which they do as well
-MOST_ENERGY = 1.0  # elastic energy above which they do as well: lengths are off by about half
-AMBIGUOUS_MARGIN = 0.7  # difference of log-likelihood below which another map may be the right one
-MARGIN_OF_THE_ONLY = 99.0  # the difference told where there is no other map
-ANOTHER_MAP = 0.1  # mean distance between the images of two maps, over root area, that makes them two answers
-OFF_SURFACE = 0.5  # spacings of vertices beyond which a point is off the target
-TO_BOUNDARY = 2.0  # times its distance from the target: nearer to the boundary, it is beyond
-REGION_TIME = 2e-4  # heat time, in units of the area, that makes a region of vertices
-DISTORTION_TIME = 1e-2  # heat time over which distortion is averaged: errors reach farther than what causes them
+# Beyond these a map is POOR: stress (relative change of distances), correlation of mean curvature, elastic energy (at 1
+# lengths are off by about half). Set by hand.
+MOST_STRESS = 0.2
+LEAST_CURVATURE = 0.2
+MOST_ENERGY = 1.0
+# Difference of log-likelihood below which another map may be the right one: it was 0.06 to 0.65 where the map was wrong
+# and, with two exceptions, 0.79 to 6.2 where it was right (benchmarks/results/notes.md, "Trust").
+AMBIGUOUS_MARGIN = 0.7
+MARGIN_OF_THE_ONLY = 99.0  # what stands for infinity in a file, where there is no other map
+ANOTHER_MAP = 0.1  # mean distance in root areas between the images of two maps that are two answers; set by hand
+# What is off the target (by more than so many spacings of its vertices) and nearer to the boundary than so many times
+# that distance lies beyond the boundary; a region is as wide as heat spreads in this time, in units of the area. Set by
+# hand; what they mark with a limb cut off is in benchmarks/results/notes.md, "Trust".
+OFF_SURFACE = 0.5
+TO_BOUNDARY = 2.0
+REGION_TIME = 2e-4
+# Heat time, in units of the area, over which distortion is averaged: the rank correlation with the true error is then
+# about 0.5 ("Trust"). Errors reach farther than what causes them.
+DISTORTION_TIME = 1e-2
 
 
 def correspondence_of(placed: Sequence[MapCandidate], meta: Mapping[str, Any]) -> Correspondence:

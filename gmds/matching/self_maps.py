@@ -24,23 +24,28 @@ from gmds.registration.residuals import Residuals
 from gmds.registration.settings import COARSE, SIMPLIFIED, TO_IMAGES
 from gmds.surface.measured import Surface
 
+# All set by hand while the ten shapes of benchmarks/accuracy/symmetry.py were looked at, plain and with one part of
+# another size; its table says what they are worth together.
 MOST_REGISTERED = 12  # rough maps of each kind that are registered to the end, and more where they fit exactly
 MOST_EMBEDDED = 24  # self-maps of each kind, orientation-reversing or not, that are embedded
 REVERSING_KEPT = 3  # of the reversing ones, however unlikely
 SHORTFALL = 1.2  # log-likelihood, on the simplified meshes, that the others may be short of the best
-# negative log-likelihood on the simplified meshes below which all maps fit exactly: a more likely one excludes none
+# Negative log-likelihood on the simplified meshes below which all maps fit exactly: a more likely one excludes none.
 EXACT_FIT = -16.0
-IDENTITY_GAP = (0.05, 0.09)  # mean distance in root areas below which a map is no more than the identity with something
-# small misplaced: a reversing one (the identity inside out), one that keeps orientation
+# Mean distance, in root areas, below which a map is the identity with something small misplaced: a map that reverses
+# orientation (the identity inside out), one that keeps it.
+IDENTITY_GAP = (0.05, 0.09)
 SYMMETRY_GAP = 0.08  # the same between two symmetries
 MAP_GAP = 0.03  # the same between two maps that are worth refining
-ENERGY_RATIO = 2.5  # times the elastic energy of the best map that the others may need, where it is more than
-FREE_ENERGY = 0.03  # which any may need
-MOST_ENERGY = 0.5  # elastic energy above which a self-map is no symmetry
-LEAST_CURVATURE = 0.77  # correlation of mean curvature below which it is none
-MOST_STRESS = 0.2  # relative change of distances above which it is none
-LEAST_ORIENTATION = 0.5  # share of the area whose orientation a map must treat alike
-SAMPLES = 300
+ENERGY_RATIO = 2.5  # of the elastic energy of a map to that of the best, at the most; below FREE_ENERGY any will do
+FREE_ENERGY = 0.03
+# Beyond these a self-map is no symmetry: elastic energy, correlation of mean curvature, relative change of distances,
+# signed share of the area whose orientation it treats alike.
+MOST_ENERGY = 0.5
+LEAST_CURVATURE = 0.77
+MOST_STRESS = 0.2
+LEAST_ORIENTATION = 0.5
+SAMPLES = 300  # placed by the solver, as in `match`
 
 
 GROWING = replace(SIMPLIFIED, energy=AsSimilarAsPossible)

@@ -16,14 +16,15 @@ from gmds.mds.losses import Loss
 from gmds.mds.problem import Placement
 from gmds.mds.status import Status
 
+# Set by hand, in mean distances; certificates and the distance to known minima are what the tests of solvers check.
 SHORTEST, LONGEST = 1e-6, 0.5
-"""Bounds of the trust region, in mean distances."""
+"""Bounds of the trust region."""
 WALLED = 0.02
-"""First trust region of a walled descent, in mean distances."""
+"""First trust region of a walled descent: the size of faces, beyond which walls stop every point."""
 FREE = 0.005
-"""A free descent ends when its trust region is no larger, in mean distances: smaller than most faces."""
+"""A free descent ends when its trust region is no larger: smaller than most faces."""
 CERTIFIED = 0.01
-"""The smallest trust region, in mean distances, in which a walled descent says that nothing is left to gain."""
+"""The smallest trust region in which a walled descent says that nothing is left to gain."""
 SIDES = 6
 """How many times in a row points on edges are turned over before nothing is left to gain."""
 

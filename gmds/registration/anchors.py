@@ -7,9 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from geodesics.arrays import Floats, Integers
+from geodesics.barycentric import combination
 
-HARD = 1e3  # weight of hard landmarks against the elasticity: they are missed by a thousandth of what they move
-HIT = 0.02  # root areas within which a hard landmark counts as hit when maps are compared
+# Weight of hard landmarks against the elasticity: they are missed by a thousandth of what they move. A tenth and a
+# hundredth of it were worse on development pairs of SHREC'20 (benchmarks/results/notes.md, "Landmarks").
+HARD = 1e3
+HIT = 0.02  # root areas within which a hard landmark counts as met when maps are compared; set by hand
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,7 +31,7 @@ class Anchors:
 
     def positions(self, y: Floats) -> Floats:
         """Where the points are (k, 3) when the vertices are at y (n, 3)."""
-        return np.asarray(np.einsum("kc,kcj->kj", self.weights, y[self.corners]), dtype=np.float64)
+        return combination(self.weights, y[self.corners])
 
     def neg_log_likelihood(self, y: Floats) -> float:
         """Minus the log-likelihood up to a constant: the sum of log sqrt(1 + (d / tolerance)^2)."""

@@ -16,7 +16,9 @@ from gmds.surface.view import View
 
 Single = NDArray[np.float32]
 
-SPECTRAL_WEIGHT = 0.15  # root areas that root mean square eigenfunctions, all taken together, are worth
+# Root areas that eigenfunctions of root mean square 1, all taken together, count as: 0.3 is no better on development
+# pairs (benchmarks/results/notes.md, "Eigenfunctions in the registration").
+SPECTRAL_WEIGHT = 0.15
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,8 @@ from scipy.spatial import cKDTree
 
 from geodesics import Mesh, SurfacePoints
 from geodesics.arrays import Bools, Floats, Integers
-from geodesics.caching import cached_property
+from geodesics.barycentric import combination
+from geodesics.caching import cached_property, memoized
 from geodesics.closest import closest_on_triangles
 from geodesics.one_ring import one_ring_areas
 from geodesics.repair.decimation import decimated
@@ -22,10 +23,12 @@ from gmds.registration.energies import Energy, EnergyKind
 from gmds.registration.laplacian import CotangentLaplacian
 from gmds.surface.measured import Surface
 
-SIMPLIFIED_FACES = 1600
-NORMAL_WEIGHT = 0.1  # root areas that a right angle between normals is worth, over root 2
-LOOKS = 4  # from vertex to vertex for the closest point
-STEPS = 2  # from vertex to vertex for the closest vertex
+SIMPLIFIED_FACES = 1600  # one registration then takes 0.05 CPU seconds, and all proposals can be weighed; set by hand
+# Root areas that a right angle between normals counts as, over root 2: 0.03 and 0.3 were worse on development pairs
+# (benchmarks/results/notes.md, "Deforming the source").
+NORMAL_WEIGHT = 0.1
+LOOKS = 4  # from vertex to vertex for the closest point, at the most; set by hand
+STEPS = 2  # from vertex to vertex for the closest vertex, at the most ("Faster by a third" says what that saves)
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,13 +85,10 @@ class DeformableMesh:
         """Its Laplacian, of which the energies are made."""
         return CotangentLaplacian(self.mesh, self.areas)
 
+    @memoized
     def energy(self, kind: EnergyKind) -> Energy:
         """What it costs to deform it, by an energy of this kind."""
-        return self._energies.setdefault(kind, kind(self.laplacian))
-
-    @cached_property
-    def _energies(self) -> dict[EnergyKind, Energy]:
-        return {}
+        return kind(self.laplacian)
 
     @cached_property
     def normals(self) -> Floats:
@@ -150,4 +150,4 @@ class DeformableMesh:
     def deformed(self, y: Floats, points: Floats) -> Floats:
         """Where points (p, 3) on the surface go when its vertices go to y (n, 3)."""
         face, weight, _ = closest_on_triangles(points, self.mesh.vertices, self.mesh.faces)
-        return np.asarray(np.einsum("pk,pkj->pj", weight, y[self.mesh.faces[face]]), dtype=np.float64)
+        return combination(weight, y[self.mesh.faces[face]])

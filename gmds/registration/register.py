@@ -14,7 +14,7 @@ from gmds.registration.deformable import DeformableMesh
 from gmds.registration.residuals import Residuals
 from gmds.registration.settings import AFTER_RETURN, WAY_BACK, RegistrationSettings
 
-GIVEN_TIME = 1e-3  # heat time that smooths the given map before anything is fitted to it
+GIVEN_TIME = 1e-3  # heat time, in units of the area, that smooths the given map before anything is fitted; set by hand
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-CONGRUENT = 1e-9  # elastic energy below which a map is a congruence up to rounding
-LEAST = 1e-6  # residuals below this are rounding
+CONGRUENT = 1e-9  # elastic energy below which a map is a congruence up to rounding: a bound, rounding leaves 1e-12
+LEAST = 1e-6  # residuals below this are rounding: a bound, so that their logarithm is finite
 
 
 @dataclass(frozen=True)

@@ -18,10 +18,12 @@ class Stage(NamedTuple):
 
 Stages = tuple[Stage, ...]
 
+# Set by hand, from the size of limbs to that of a few faces, but for what is said: development pairs were only run with
+# and without whole stages (benchmarks/results/notes.md).
 TO_IMAGES: Stages = (Stage(3e-2, 6),)  # towards the images given, before the target is looked at
 COARSE: Stages = (Stage(1e-2, 4), Stage(3e-3, 4))
 FINE: Stages = (Stage(1e-3, 4), Stage(5e-4, 4))
-REFINEMENT: Stages = (Stage(3e-3, 4), *FINE)  # of a map that is good already
+REFINEMENT: Stages = (Stage(3e-3, 4), *FINE)  # of a map that is good already ("Speed of a match")
 SPECTRAL: Stages = (Stage(1e-3, 5), Stage(5e-4, 4))  # with eigenfunctions, from where the source lies
 WAY_BACK: Stages = (Stage(3e-3, 4), Stage(3e-3, 3), Stage(1e-3, 3))
 AFTER_RETURN: Stages = (Stage(1e-3, 3), Stage(1e-3, 3), Stage(5e-4, 3))

@@ -11,12 +11,12 @@ import scipy.sparse as sp
 import scipy.sparse.linalg as sla
 
 from geodesics.arrays import Floats, Integers
-from geodesics.caching import cached_property
+from geodesics.caching import cached_property, memoized
 
 Solver = Callable[[Floats], Floats]
 
-FAINT = 1e-12  # an area: weight of vertices that nothing holds, so that no system is singular; not seen in any digit
-# SuperLU on matrices of some 5,000 rows: supernodes and panels wider than 1 cost more than they save
+FAINT = 1e-12  # an area: weight of vertices that nothing holds, a bound, so that no system is singular
+# Without supernodes, factors of 5,000 rows take 4.6 ms instead of 10 (benchmarks/results/notes.md, "Speed of a match").
 SUPERNODES: dict[str, Any] = {"relax": 1, "panel_size": 1, "options": {"SymmetricMode": True}}
 
 
@@ -58,12 +58,7 @@ class StiffnessSystem:
 
         return unordered
 
+    @memoized
     def implicit_step(self, time: float) -> Solver:
         """Solves (time K + diag(areas)) y = b: an implicit Euler step, for b = areas times a function; kept."""
-        if time not in self._steps:
-            self._steps[time] = self.solver(time, self.areas)
-        return self._steps[time]
-
-    @cached_property
-    def _steps(self) -> dict[float, Solver]:
-        return {}
+        return self.solver(time, self.areas)

@@ -18,23 +18,19 @@ import scipy.sparse.linalg as sla
 
 from geodesics import Spectrum, embedded, stiffness
 from geodesics.arrays import Floats
-from geodesics.caching import cached_property
+from geodesics.caching import cached_property, memoized
 from gmds.surface.measured import Surface
 from gmds.surface.view import View
 
-LARGEST_FACTOR = 100.0
-FINE = 60  # eigenfunctions of the scale-invariant metric: they resolve parts that are small in space
+LARGEST_FACTOR = 100.0  # of areas, and one over the least: a bound
+FINE = 60  # eigenfunctions of the scale-invariant metric, which resolve parts that are small in space; set by hand
 
 
 @dataclass(frozen=True, eq=False)
 class ConformalClass:
-    """Metrics rho g of one surface, measured in the span of eigenfunctions it already has (Rayleigh-Ritz).
-
-    `times`: the heat times, in units of the area, with which densities may be smoothed.
-    """
+    """Metrics rho g of one surface, measured in the span of eigenfunctions it already has (Rayleigh-Ritz)."""
 
     surface: Surface
-    times: tuple[float, ...]
 
     @cached_property
     def basis(self) -> Floats:
@@ -60,17 +56,17 @@ class ConformalClass:
         values[0] = 0.0  # the constant, up to rounding
         return View(self.surface.mesh, Spectrum(self.surface.mesh, mass, np.maximum(values, 0), self.basis @ vectors))
 
-    @cached_property
-    def _smoothers(self) -> dict[float, Callable[[Floats], Floats]]:
-        """One implicit heat step for each of the times."""
+    @memoized
+    def _heat_step(self, time: float) -> Callable[[Floats], Floats]:
+        """Solves (time W + A) y = b on the vertices with area: an implicit step of the heat equation."""
         used = self.surface.regular.usable
         mass = sp.diags(self.surface.areas[used])
         weights = stiffness(embedded(self.surface.mesh))[used][:, used]
-        return {time: sla.splu((mass + time * weights).tocsc()).solve for time in self.times}
+        return sla.splu((mass + time * weights).tocsc()).solve  # type: ignore[no-any-return]
 
     def density(self, amounts: Floats, time: float) -> Floats:
-        """Amounts (n,) per area (n,), both smoothed by one implicit heat step of `time`, one of `times`."""
-        used, solve = self.surface.regular.usable, self._smoothers[time]
+        """Amounts (n,) per area (n,), both smoothed by one implicit heat step of `time`, in units of the area."""
+        used, solve = self.surface.regular.usable, self._heat_step(time)
         ratio = solve(amounts[used]) / solve(self.surface.areas[used])
         factor = np.ones(len(amounts))
         factor[used] = np.clip(ratio, 1 / LARGEST_FACTOR, LARGEST_FACTOR)

@@ -10,9 +10,11 @@ from gmds._kernels.closest import closest_on_faces
 from gmds.spectral.functional_maps import functional_map, nearest_rows
 from gmds.surface.view import View
 
-PER_FUNCTION = 3  # samples that each eigenfunction needs: a fit to fewer is torn between them
-FEWEST = 8  # eigenfunctions that are used all the same, if there are as many samples
-ROUNDS = 8  # looks from vertex to vertex for the closest point
+# Samples that each eigenfunction needs, and eigenfunctions that are used all the same if there are as many samples: a
+# fit to fewer oscillates between them. Set by hand.
+PER_FUNCTION = 3
+FEWEST = 8
+ROUNDS = 8  # from vertex to vertex for the closest point, at the most: a bound
 
 
 def extend(source: View, target: View, samples: Integers, placed: SurfacePoints, count: int) -> SurfacePoints:

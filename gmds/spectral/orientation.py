@@ -11,7 +11,7 @@ from geodesics.arrays import Floats, Integers
 from geodesics.curvature import vertex_normals
 from gmds.surface.view import View
 
-FUNCTIONS = 5  # first eigenfunctions, without the constant, whose forms are compared
+FUNCTIONS = 5  # first eigenfunctions, without the constant, whose forms are compared: those whose signs are tried
 _PAIRS = np.array(list(itertools.combinations(range(FUNCTIONS), 2)))
 
 

@@ -14,17 +14,20 @@ from gmds.spectral.functional_maps import nearest_rows, spectral_upsampling
 from gmds.surface.measured import Surface
 from gmds.surface.view import View
 
-# heat time, in units of the area, that smooths the factor, and the eigenfunctions used after; coarse to fine
+# Heat time, in units of the area, that smooths the factor, and the numbers of eigenfunctions after; coarse to fine.
+# Each of three rounds lessened the error of scaled development pairs (benchmarks/results/notes.md, "Alignment").
 ROUNDS: tuple[tuple[float, tuple[int, ...]], ...] = (
     (3e-3, (16, 20, 24, 28, 32, 40)),
     (2e-3, (20, 28, 40, 50)),
     (1e-3, (24, 40, 60)),
 )
-LADDER = (16, 20, 24, 28, 32, 40, 50, 60)
-CARRIERS = 1500  # source vertices that carry a map from one round to the next
-PER_FUNCTION = 15  # samples that each eigenfunction is fitted to, at the least
-FITTED = 500  # the first of them, to which functional maps are fitted
-GOALS = 2500  # target vertices that they may be sent to
+LADDER = (16, 20, 24, 28, 32, 40, 50, 60)  # numbers of eigenfunctions without an alignment, from rough maps on
+# Source vertices by which a map goes from one round to the next, and target vertices that they may be sent to. Set by
+# hand: all vertices would cost several times as much.
+CARRIERS = 1500
+GOALS = 2500
+PER_FUNCTION = 15  # samples that each eigenfunction is fitted to, at the least; set by hand
+FITTED = 500  # the first samples, to which functional maps are fitted; set by hand
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +40,7 @@ class Refiner:
     @cached_property
     def factors(self) -> ConformalClass:
         """The metrics of the target among which the right one is sought."""
-        return ConformalClass(self.target, tuple(time for time, _ in ROUNDS))
+        return ConformalClass(self.target)
 
     @cached_property
     def _carriers(self) -> tuple[Integers, Floats]:

@@ -17,12 +17,13 @@ from gmds.spectral.functional_maps import functional_map, nearest_rows
 from gmds.spectral.orientation import orientation_forms
 from gmds.surface.view import View
 
+# Half of either was worse on two of twelve FAUST pairs (benchmarks/results/notes.md, "Faster by a third").
 SOURCE_SAMPLES = 400
 TARGET_SAMPLES = 1000
-COARSE = (6, 7, 8, 10, 12, 14, 17, 20, 24)  # numbers of eigenfunctions while forms are compared too
-FORM_WEIGHT = 0.6
-JUDGED = 200  # samples and eigenfunctions that tell one start from another
-FUNCTIONS = 40
+COARSE = (6, 7, 8, 10, 12, 14, 17, 20, 24)  # numbers of eigenfunctions while forms are compared too; set by hand
+FORM_WEIGHT = 0.6  # root mean square of the forms, that of an eigenfunction being 1; set by hand
+JUDGED = 200  # samples between which the stress of a sample map is measured; set by hand
+FUNCTIONS = 40  # eigenfunctions of the commute-time distance that it is measured in; set by hand
 
 
 @dataclass(frozen=True, eq=False)

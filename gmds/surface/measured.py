@@ -20,12 +20,16 @@ from geodesics.topology.orientation import orient_faces
 from gmds.errors import TooFewVertices
 from gmds.surface.view import View
 
-FEWEST_VERTICES = 12  # below this there are not enough eigenfunctions to start from
+FEWEST_VERTICES = 12  # a bound: below it there are not enough eigenfunctions to start from
+# In the metric of space 150 were hardly better than 100 on development pairs (benchmarks/results/notes.md,
+# "Eigenfunctions in the registration"); 60 in the metrics of rough maps save 0.5 CPU seconds ("Faster by a third").
 EIGENFUNCTIONS = 100
-ROUGH_FUNCTIONS = 60  # in the metrics that only rough maps are made in
-ENOUGH_EIGENFUNCTIONS = 30
-FLAT = 1e-6  # mean curvature of a surface of unit area below which it is rounding
-EXPONENTS = (1.0, 0.5)  # of |K|, beside 0: what suits parts that grew much, a little, and not at all
+ROUGH_FUNCTIONS = 60
+ENOUGH_EIGENFUNCTIONS = 30  # of a given distance, for its spectrum to serve as the view; set by hand
+FLAT = 1e-6  # mean curvature of a surface of unit area below which it is rounding: a bound
+# Of |K|, beside 0: no one metric serves all pairs (benchmarks/results/notes.md, "Starts: which metric finds the right
+# map"): parts that changed size much, a little, and not at all.
+EXPONENTS = (1.0, 0.5)
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ from geodesics.arrays import Floats, Integers
 from geodesics.caching import cached_property
 from geodesics.sampling import Cells, farthest_point_cells
 
-SAMPLING_FUNCTIONS = 20  # of a commute-time distance, for choosing samples: the rest does not move them much
+SAMPLING_FUNCTIONS = 20  # of a commute-time distance, for choosing samples: the rest hardly moves them; set by hand
 
 
 @dataclass(frozen=True, eq=False)

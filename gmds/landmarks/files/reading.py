@@ -10,7 +10,7 @@ from pathlib import Path
 from gmds.files.text import read_text
 from gmds.landmarks.files.named_points import BadLandmarkFile, Landmarks
 
-LARGEST = 50_000_000  # bytes
+LARGEST = 50_000_000  # bytes of a landmark file: a bound on memory
 WHOLE = r"[+-]?\d{1,18}"
 NUMBER = r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?"
 

@@ -12,7 +12,8 @@ from geodesics.arrays import Floats, Integers
 from gmds.mds.jacobian import Jacobian
 
 IDLE_COST = 1e-3
-"""What moving every point by the whole radius costs, in radii: keeps points that can not lower the maximum in place."""
+"""What moving every point by the whole radius costs, in radii, so that points that cannot lower the maximum stay.
+Set by hand: it bounds what is given away of the maximum."""
 
 
 @dataclass(frozen=True)

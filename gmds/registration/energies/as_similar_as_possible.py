@@ -8,9 +8,11 @@ from geodesics.arrays import Floats
 from gmds.registration.energies.base import LocalGlobalEnergy
 from gmds.registration.stiffness import FAINT
 
-SIZE_TIME = 1e-3  # heat time, in units of the area, over which the local size is averaged
-DOUBT = 0.05  # logarithm of a size below which the change is rather noise than growth
-LARGEST = 10.0  # local size, and one over the least
+# Heat time, in units of the area, over which the local size is averaged, and the logarithm of a size below which the
+# change is rather noise: chosen on development pairs (benchmarks/results/notes.md, "Deforming the source").
+SIZE_TIME = 1e-3
+DOUBT = 0.05
+LARGEST = 10.0  # local size, and one over the least: a bound
 
 
 class AsSimilarAsPossible(LocalGlobalEnergy):

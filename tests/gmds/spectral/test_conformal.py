@@ -18,7 +18,7 @@ TIMES = (3e-3, 1e-3)
 
 @pytest.fixture(scope="module")
 def family() -> ConformalClass:
-    return ConformalClass(surface(animal()), TIMES)
+    return ConformalClass(surface(animal()))
 
 
 def test_the_basis_is_orthonormal_in_area(family: ConformalClass) -> None:
@@ -83,7 +83,7 @@ def test_density_finds_the_local_scale_of_a_part_that_grew() -> None:
     log_scale = np.log(2.0) / (1 + np.exp(-6 * (z - np.median(z))))
     grown, _ = local_scaling(mesh, log_scale)
     source, target = measure(mesh), measure(grown)
-    density = ConformalClass(target, (1e-3,)).density(source.areas, 1e-3)
+    density = ConformalClass(target).density(source.areas, 1e-3)
     expected = -2 * achieved_log_scale(mesh, grown)
     expected -= expected @ source.areas
     found = np.log(density)
@@ -99,7 +99,7 @@ def test_a_part_that_grew_is_shrunk_back() -> None:
     z = mesh.vertices[:, 2]
     grown, _ = local_scaling(mesh, np.log(2.0) / (1 + np.exp(-4 * (z - np.median(z)))))
     source, target = measure(mesh), measure(grown)
-    family = ConformalClass(target, (1e-3,))
+    family = ConformalClass(target)
     view = family.view(family.density(source.areas, 1e-3), 12)
     regular = source.regular.eigenvalues[1:12]
     aligned = np.abs(view.eigenvalues[1:] / regular - 1).mean()
