@@ -25,8 +25,8 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 
-from geodesics._validation import is_flat
 from geodesics.arrays import Bools
+from geodesics.defects import flat_faces, repeated_faces, unreferenced_vertices
 from geodesics.errors import Note
 from geodesics.mesh import Mesh
 from geodesics.one_ring import one_ring_areas, one_ring_curvature
@@ -35,10 +35,14 @@ from geodesics.topology.edges import corner_fans, degenerate_faces, edges
 from geodesics.topology.invariants import invariants
 from geodesics.topology.orientation import orientation
 
-FLAT = 1e-3  # Gaussian curvature times the area of the surface below which it is none
-NAMED = 100  # at most so many indices are listed in a note
+__all__ = ["check", "flat_faces", "repeated_faces", "unreferenced_vertices"]
 
-# What `gmds repair` needs to be told to mend it ("": nothing); codes that are not here it can not mend.
+# Gaussian curvature times the area of the surface, no unit, below which it counts as 0: a sphere has 4 pi. Set by hand,
+# far above rounding and far below a curved surface; only the note W206 depends on it.
+FLAT = 1e-3
+NAMED = 100  # indices listed in a note, at most; a convention that keeps messages readable
+
+# The option with which `gmds repair` mends a finding ("": none is needed); codes that are not here it cannot mend.
 REMEDIES = {
     **dict.fromkeys(("W201", "W202", "W204", "W215"), ""),
     "W203": "--remesh",
@@ -50,7 +54,22 @@ REMEDIES = {
 
 
 def check(mesh: Mesh) -> list[Note]:
-    """Notes on a mesh, warnings first; an empty list is never returned, as the topology is always told (W218)."""
+    """What is unusual or wrong with a mesh, each finding as a note.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh, which is not changed.
+
+    Returns
+    -------
+    list of Note
+        Warnings first. The list is never empty, as the topology is always reported (W218).
+
+    See Also
+    --------
+    geodesics.repair.repair : Removes what can be removed.
+    """
     notes = [note for find in _CHECKS for note in find(mesh)]
     return sorted(notes, key=lambda note: note.severity != "warning")
 
@@ -63,26 +82,6 @@ def _warn(code: str, mask: Bools, sentence: str) -> list[Note]:
     return [Note(code, "warning", sentence.format(len(where)), tuple(where[:NAMED].tolist()), len(where))]
 
 
-def repeated_faces(mesh: Mesh) -> Bools:
-    """Faces of the same three vertices, in any order, as an earlier face, shape (m,)."""
-    _, first = np.unique(np.sort(mesh.faces, axis=1), axis=0, return_index=True)
-    repeated = np.ones(mesh.n_faces, dtype=bool)
-    repeated[first] = False
-    return repeated
-
-
-def flat_faces(mesh: Mesh) -> Bools:
-    """Faces of three different vertices whose area is no more than rounding of the coordinates, shape (m,)."""
-    return np.asarray(is_flat(mesh.vertices, mesh.faces) & ~degenerate_faces(mesh))
-
-
-def unreferenced_vertices(mesh: Mesh) -> Bools:
-    """Vertices on no face, shape (n,)."""
-    unused = np.ones(mesh.n_vertices, dtype=bool)
-    unused[mesh.faces] = False
-    return unused
-
-
 def _faces(mesh: Mesh) -> Iterable[Note]:
     yield from _warn("W201", repeated_faces(mesh), "{} faces repeat an earlier face")
     yield from _warn("W202", degenerate_faces(mesh), "{} faces name a vertex twice")
@@ -90,10 +89,10 @@ def _faces(mesh: Mesh) -> Iterable[Note]:
 
 
 def _orientation(mesh: Mesh) -> Iterable[Note]:
-    found = orientation(mesh)
-    yield from _warn("W204", found.turn, "{} faces are oriented against their neighbours")
-    yield from _warn("W204", found.inward, "{} faces belong to closed parts that are inside out")
-    yield from _warn("W212", found.one_sided, "{} faces belong to a part that has no orientation, like a Moebius strip")
+    sides = orientation(mesh)
+    yield from _warn("W204", sides.turn, "{} faces are oriented against their neighbours")
+    yield from _warn("W204", sides.inward, "{} faces belong to closed parts that are inside out")
+    yield from _warn("W212", sides.one_sided, "{} faces belong to a part that has no orientation, like a Moebius strip")
 
 
 def _manifold(mesh: Mesh) -> Iterable[Note]:
@@ -133,17 +132,17 @@ def _precision(mesh: Mesh) -> Iterable[Note]:
 
 
 def _topology(mesh: Mesh) -> Iterable[Note]:
-    found = invariants(mesh)
-    if found.components > 1:
+    topology = invariants(mesh)
+    if topology.components > 1:
         sizes = np.sort(np.bincount(vertex_components(mesh)[vertex_components(mesh) >= 0]))[::-1]
-        message = f"{found.components} components, of {', '.join(map(str, sizes[:5]))} vertices"
-        yield Note("W216", "warning", message, (), found.components)
-    if found.boundaries:
+        message = f"{topology.components} components, of {', '.join(map(str, sizes[:5]))} vertices"
+        yield Note("W216", "warning", message, (), topology.components)
+    if topology.boundaries:
         table, sound = edges(mesh), ~degenerate_faces(mesh)
         count = int((table.n_faces[table.of_side] == 1)[sound].sum())
-        yield Note("W217", "info", f"{found.boundaries} boundary loops with {count} edges", (), found.boundaries)
-    genus = "" if found.genus is None else f", genus {found.genus}"
-    yield Note("W218", "info", f"Euler characteristic {found.euler}{genus}")
+        yield Note("W217", "info", f"{topology.boundaries} boundary loops with {count} edges", (), topology.boundaries)
+    genus = "" if topology.genus is None else f", genus {topology.genus}"
+    yield Note("W218", "info", f"Euler characteristic {topology.euler}{genus}")
 
 
 def _curvature(mesh: Mesh) -> Iterable[Note]:

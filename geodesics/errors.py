@@ -8,9 +8,16 @@ from typing import Literal
 
 @dataclass(frozen=True)
 class Note:
-    """Worth knowing, but no error: a stable `code`, its `severity`, a sentence, and the faces or vertices meant.
+    """Something worth knowing about a mesh or a file that is no error.
 
-    `indices` holds the first of them, `count` says how many there are, where they are counted.
+    Parameters
+    ----------
+    code, message : str
+        The code, such as W213, is stable across versions; the message is one sentence.
+    severity : {"info", "warning"}
+        A warning says that results may suffer.
+    indices, count : tuple of int, int
+        The first of the faces or vertices that are meant, and how many there are, where they are counted.
     """
 
     code: str
@@ -23,22 +30,23 @@ class Note:
         return f"{self.code}: {self.message}"
 
 
-class MeshError(ValueError):
+class _Coded(Exception):
+    code: str
+
+    def __str__(self) -> str:
+        return f"{self.code}: {super().__str__()}"
+
+
+class MeshError(_Coded, ValueError):
     """Arrays that do not describe a triangle mesh; `code` is stable across versions."""
 
     code = "E100"
 
-    def __str__(self) -> str:
-        return f"{self.code}: {super().__str__()}"
 
-
-class FormatError(ValueError):
-    """A file that can not be read; `code` is stable across versions."""
+class FormatError(_Coded, ValueError):
+    """A file that cannot be read; `code` is stable across versions."""
 
     code = "E200"
-
-    def __str__(self) -> str:
-        return f"{self.code}: {super().__str__()}"
 
 
 class NonFiniteVertex(MeshError):
@@ -150,7 +158,7 @@ class BadPolygon(FormatError):
 
 
 class BadToken(FormatError):
-    """Something stands where a plain decimal number should."""
+    """A word that is not a plain decimal number where one is expected."""
 
     code = "E207"
 
@@ -162,39 +170,30 @@ class LineTooLong(FormatError):
 
 
 class BadContainer(FormatError):
-    """A GLB file whose parts disagree, or which holds other than one mesh."""
+    """A GLB file whose parts disagree, or that does not hold exactly one mesh."""
 
     code = "E209"
 
 
 class ExternalReference(FormatError):
-    """The file refers to another file, which is never opened."""
+    """The file refers to another file; no other file is ever opened."""
 
     code = "E222"
 
 
-class WouldExceedMemory(MemoryError):
-    """A table larger than the memory that is free; the message says how large, and what to do instead."""
+class WouldExceedMemory(_Coded, MemoryError):
+    """A table larger than the free memory; the message says how large it is and what to do instead."""
 
     code = "E501"
 
-    def __str__(self) -> str:
-        return f"{self.code}: {super().__str__()}"
 
-
-class MissingExtra(ImportError):
+class MissingExtra(_Coded, ImportError):
     """An optional dependency is not installed; the message names the extra."""
 
     code = "E602"
 
-    def __str__(self) -> str:
-        return f"{self.code}: {super().__str__()}"
 
-
-class EigensolverFailed(RuntimeError):
+class EigensolverFailed(_Coded, RuntimeError):
     """The eigenvalue iteration did not converge, or the matrix could not be factorised."""
 
     code = "E402"
-
-    def __str__(self) -> str:
-        return f"{self.code}: {super().__str__()}"

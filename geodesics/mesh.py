@@ -1,4 +1,4 @@
-"""A triangle mesh: checked once at the door, then frozen."""
+"""A triangle mesh: checked once when it is made, and never changed afterwards."""
 
 from __future__ import annotations
 
@@ -17,18 +17,42 @@ from geodesics.errors import BadShape
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
-    """A triangle mesh with vertices (n, 3) float64 and faces (m, 3) int64, both read-only copies.
+    """A triangle mesh: checked when it is made, and never changed afterwards.
 
-    `Mesh(vertices, faces)` takes anything array-like; `Mesh(other)` takes a mesh object of trimesh, pyvista, meshio
-    or Open3D. Coordinates may have any unit. Raises `MeshError` naming the first offending vertex or face.
+    Parameters
+    ----------
+    vertices : array_like of shape (n, 3), or mesh object
+        Positions, in any unit of length; or a mesh of trimesh, pyvista, meshio or Open3D, and no `faces`.
+    faces : array_like of shape (m, 3)
+        Three vertices per triangle, counted from 0.
+
+    Attributes
+    ----------
+    vertices : float64 array of shape (n, 3)
+        A read-only copy of the positions.
+    faces : int64 array of shape (m, 3)
+        A read-only copy of the triangles.
+
+    Raises
+    ------
+    MeshError
+        Naming the first offending vertex or face: E101 not finite, E102 too large or too small for float64, E103 no
+        vertices, E104 no faces, E105 no such vertex, E106 not a whole number, E107 not real numbers, E108 wrong shape,
+        E109 larger polygons, E114 no face has an area.
+
+    See Also
+    --------
+    read_mesh : A mesh from a file.
+    triangulate : Triangles from larger polygons.
+    geodesics.check.check : What is unusual about a mesh.
     """
 
     vertices: Floats
     faces: Integers
 
     def __init__(self, vertices: ArrayLike | Any, faces: ArrayLike | None = None) -> None:
-        if faces is None and (found := arrays_of(vertices)) is not None:
-            vertices, faces = found
+        if faces is None and (arrays := arrays_of(vertices)) is not None:
+            vertices, faces = arrays
         v = as_vertices(vertices)
         f = as_faces(faces, len(v))
         check_area(v, f)
@@ -39,19 +63,34 @@ class Mesh:
 
     @classmethod
     def from_object(cls, mesh: Any) -> Mesh:
-        """A `Mesh` from a mesh object of trimesh, pyvista, meshio or Open3D; a `Mesh` is returned as it is.
+        """A mesh from a mesh object of another library.
 
-        Raises `TypeError` for anything else, and `MeshError` for what the object holds.
+        Parameters
+        ----------
+        mesh : mesh object
+            Of trimesh, pyvista, meshio or Open3D. A `Mesh` is returned as it is.
+
+        Returns
+        -------
+        Mesh
+            The same vertices and triangles.
+
+        Raises
+        ------
+        TypeError
+            For anything else.
+        MeshError
+            Where the arrays of the object do not describe a triangle mesh.
         """
         if isinstance(mesh, cls):
             return mesh
-        found = arrays_of(mesh)
-        if found is None:
+        arrays = arrays_of(mesh)
+        if arrays is None:
             raise TypeError(
                 f"a mesh is expected, not {type(mesh).__name__}; for example geodesics.Mesh(vertices, faces), "
                 "geodesics.read_mesh(path), or a mesh object of trimesh, pyvista or meshio"
             )
-        return cls(*found)
+        return cls(*arrays)
 
     def __repr__(self) -> str:
         return f"Mesh({len(self.vertices)} vertices, {len(self.faces)} faces)"
@@ -83,9 +122,22 @@ class Mesh:
 
 
 def triangulate(faces: ArrayLike) -> Integers:
-    """Polygons (m, k) split about their first corner into triangles (m (k - 2), 3), in order; no vertex is added.
+    """Split polygons about their first corner into triangles, in order; no vertex is added.
 
-    Raises `MeshError` when the array is not (m, k) with k >= 3 or does not hold whole numbers from 0.
+    Parameters
+    ----------
+    faces : array_like of shape (m, k), k >= 3
+        Vertices of each polygon, counted from 0.
+
+    Returns
+    -------
+    int64 array of shape (m (k - 2), 3)
+        The triangles of the first polygon, then those of the second, and so on.
+
+    Raises
+    ------
+    MeshError
+        E108 when the array is not (m, k) with k >= 3; E105 - E107 when it does not hold whole numbers from 0.
     """
     f = as_indices(faces, 2**63 - 1, "face", "possible vertices")
     if f.ndim != 2 or f.shape[1] < 3:

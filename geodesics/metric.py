@@ -13,11 +13,27 @@ from geodesics.mesh import Mesh
 
 @dataclass(frozen=True, eq=False)
 class Metric:
-    """Squared edge lengths l_sq (m, 3), edge k opposite corner k, and vertex mass (n,).
+    r"""A Riemannian metric on a mesh: squared edge lengths per face, and a mass per vertex.
 
-    Three lengths per triangle are a metric tensor; neighbouring faces need not agree on the length of their
-    shared edge. `conformal_factor` (n,) is rho when the metric is rho * g with g the embedded one, else None:
-    conformal metrics share angles, so flips and stiffness are those of the embedded metric.
+    Three lengths per triangle are the same as a metric tensor on it. Neighbouring faces need not agree on the length of
+    their shared edge.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The surface, of n vertices and m faces.
+    l_sq : array of shape (m, 3)
+        Squared edge lengths in this metric; column k is the edge opposite corner k.
+    mass : array of shape (n,)
+        Area in this metric that each vertex stands for. Integrals over the surface are ``mass @ values``.
+    conformal_factor : array of shape (n,), optional
+        The factor :math:`\rho` per vertex where the metric is :math:`\rho g`, g the embedded metric, else None. Such
+        metrics share angles, so their edge flips and their stiffness matrix are those of the embedded metric.
+
+    See Also
+    --------
+    conformal : The metric of a given factor.
+    embedded, scale_invariant, min_curvature, equi_affine, affine : The metrics of the paper.
     """
 
     mesh: Mesh
@@ -27,7 +43,25 @@ class Metric:
 
 
 def conformal(mesh: Mesh, factor: Floats) -> Metric:
-    """The metric rho * g for a positive factor rho (n,) per vertex; g is the embedded metric."""
+    r"""The metric :math:`\rho g`, with g the embedded metric.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The surface, of n vertices.
+    factor : array of shape (n,)
+        The positive factor :math:`\rho` at each vertex.
+
+    Returns
+    -------
+    Metric
+        Every face has one scale, the mean of :math:`\sqrt{\rho}` over its corners, so that triangles stay triangles.
+
+    See Also
+    --------
+    embedded : The case :math:`\rho = 1`.
+    scale_invariant : The case :math:`\rho = |K|`.
+    """
     l_sq = intrinsic.conformal_lengths(intrinsic.squared_lengths(mesh.vertices, mesh.faces), mesh.faces, factor)
     mass = factor * vertex_areas(*intrinsic_delaunay(mesh), mesh.n_vertices)
     return Metric(mesh, l_sq, mass, factor)

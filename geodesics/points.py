@@ -19,10 +19,35 @@ from geodesics.mesh import Mesh
 
 @dataclass(frozen=True, eq=False)
 class SurfacePoints:
-    """Points on a mesh: face (p,) int64 and barycentric (p, 3) float64, weights >= 0 summing to 1.
+    """Points anywhere on a mesh, each as a face and three barycentric weights.
 
-    Rounding errors in the weights are removed. Raises `MeshError` naming the point whose face does not exist (E105) or
-    whose weights are not finite, negative or of another sum (E115), and for arrays of the wrong shape (E108).
+    Parameters
+    ----------
+    mesh : Mesh
+        The surface, of n vertices and m faces.
+    face : array_like of shape (p,)
+        The face of each point, from 0 to m - 1.
+    barycentric : array_like of shape (p, 3)
+        Weights of the corners of that face: not negative, and summing to 1. Rounding errors are removed.
+
+    Attributes
+    ----------
+    mesh : Mesh
+        The surface.
+    face : int64 array of shape (p,)
+        The face of each point, read-only.
+    barycentric : float64 array of shape (p, 3)
+        The weights of its corners, read-only.
+
+    Raises
+    ------
+    MeshError
+        Naming the point whose face does not exist (E105) or whose weights are not finite, negative or of another sum
+        (E115), and for arrays of the wrong shape (E108).
+
+    See Also
+    --------
+    geodesics.tracing.walk : Points moved along the surface.
     """
 
     mesh: Mesh
@@ -47,7 +72,25 @@ class SurfacePoints:
 
     @classmethod
     def at_vertices(cls, mesh: Mesh, indices: ArrayLike) -> SurfacePoints:
-        """The points at mesh vertices `indices` (p,); `MeshError` if one is on no face."""
+        """The points at vertices of the mesh.
+
+        Parameters
+        ----------
+        mesh : Mesh
+            The surface, of n vertices.
+        indices : array_like of shape (p,)
+            Vertices, from 0 to n - 1.
+
+        Returns
+        -------
+        SurfacePoints
+            One point per index, on some face of that vertex.
+
+        Raises
+        ------
+        MeshError
+            E105 when a vertex does not exist, or is on no face.
+        """
         mesh = Mesh.from_object(mesh)
         vertices = as_indices(indices, mesh.n_vertices, "point", "vertices").reshape(-1)
         corner = _corner_of_vertex(mesh)[vertices]
@@ -58,7 +101,25 @@ class SurfacePoints:
 
     @classmethod
     def closest(cls, mesh: Mesh, positions: ArrayLike) -> SurfacePoints:
-        """The points of the surface closest in space to `positions` (p, 3). Raises `MeshError` as `Mesh` does."""
+        """The points of the surface closest in space to given positions.
+
+        Parameters
+        ----------
+        mesh : Mesh
+            The surface.
+        positions : array_like of shape (p, 3)
+            Positions, in the unit of the mesh.
+
+        Returns
+        -------
+        SurfacePoints
+            One point per position.
+
+        Raises
+        ------
+        MeshError
+            For positions that could not be vertices of a `Mesh` (E101 - E103, E107, E108).
+        """
         mesh = Mesh.from_object(mesh)
         p = as_vertices(positions)
         center, size = mesh.vertices.mean(axis=0), np.ptp(mesh.vertices, axis=0).max()
@@ -80,11 +141,27 @@ class SurfacePoints:
 
     @property
     def positions(self) -> Floats:
-        """Positions in space, shape (p, 3)."""
+        """Positions in space, shape (p, 3), in the unit of the mesh."""
         return self.interpolate(self.mesh.vertices)
 
     def interpolate(self, values: ArrayLike) -> Floats:
-        """Per-vertex values (n,) or (n, c), linearly interpolated at the points: (p,) or (p, c)."""
+        """Values per vertex, linearly interpolated at the points: :math:`b_1 u_i + b_2 u_j + b_3 u_k`.
+
+        Parameters
+        ----------
+        values : array_like of shape (n,) or (n, c)
+            One row per vertex, of any unit.
+
+        Returns
+        -------
+        array of shape (p,) or (p, c)
+            One row per point.
+
+        Raises
+        ------
+        MeshError
+            E108 when there is not one row per vertex.
+        """
         values = np.asarray(values)
         if values.ndim == 0 or len(values) != self.mesh.n_vertices:
             raise BadShape(f"values must have one row per vertex, {self.mesh.n_vertices}, not shape {values.shape}")
