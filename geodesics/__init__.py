@@ -47,10 +47,10 @@ if TYPE_CHECKING:
     from geodesics.signatures import heat_kernel_signature as heat_kernel_signature
     from geodesics.signatures import scale_invariant_heat_kernel_signature as scale_invariant_heat_kernel_signature
     from geodesics.signatures import scaled_heat_kernel_signature as scaled_heat_kernel_signature
-    from geodesics.signatures import wave_kernel_signature as wave_kernel_signature
     from geodesics.spectrum import Spectrum as Spectrum
     from geodesics.spectrum import eigenpairs as eigenpairs
     from geodesics.topology.orientation import orient_faces as orient_faces
+    from geodesics.wave_signature import wave_kernel_signature as wave_kernel_signature
 
 # every public name, by the module it lives in
 _NAMES = {
@@ -107,13 +107,13 @@ _NAMES = {
         "heat_kernel_signature",
         "scale_invariant_heat_kernel_signature",
         "scaled_heat_kernel_signature",
-        "wave_kernel_signature",
     ),
     "spectrum": (
         "Spectrum",
         "eigenpairs",
     ),
     "topology.orientation": ("orient_faces",),
+    "wave_signature": ("wave_kernel_signature",),
 }
 _SUBMODULES = ("check", "intrinsic", "metrics", "repair", "topology", "tracing")
 _HOME = {name: module for module, names in _NAMES.items() for name in names}

@@ -1,4 +1,4 @@
-"""Vertices and faces of the mesh objects of other libraries, recognised by what they offer."""
+"""Vertices and faces of the mesh objects of other libraries, recognised by their attributes."""
 
 from __future__ import annotations
 

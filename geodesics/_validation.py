@@ -1,4 +1,4 @@
-"""The checks at the door: arrays in, clean arrays or a typed error out."""
+"""Checks of what callers give: arrays in, clean arrays or a typed error out."""
 
 from __future__ import annotations
 
@@ -22,7 +22,8 @@ from geodesics.errors import (
     ZeroArea,
 )
 
-# Areas are computed from fourth powers of lengths, which must stay inside float64 (1e-308 .. 1e308).
+# Extent of the coordinates along an axis, in their own unit. Areas are computed from fourth powers of lengths, which
+# must stay within float64, 1e-308 to 1e308; a factor of 1e8 is left at either end.
 SMALLEST_EXTENT, LARGEST_EXTENT = 1e-75, 1e75
 
 

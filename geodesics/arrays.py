@@ -1,4 +1,4 @@
-"""What arrays hold, as docstrings and signatures say it; shapes are told beside the names."""
+"""Types of arrays by what they hold; docstrings say the shapes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Curvature of a triangle mesh at its vertices: to the letter of the paper, and smoothed so that remeshing keeps it."""
+"""Curvature of a triangle mesh at its vertices: the angle defect as it is, and smoothed so that remeshing keeps it."""
 
 from __future__ import annotations
 
@@ -14,16 +14,32 @@ from geodesics.laplacian import cotangent_matrix
 from geodesics.linalg.factors import factorised
 from geodesics.mesh import Mesh
 from geodesics.moved_paths import names_moved
-from geodesics.smoothing import DEFAULT, FIRST_LOOK
+from geodesics.smoothing import DEFAULT_SMOOTHING, FIRST_LOOK
 from geodesics.topology.components import boundary_vertices
 from geodesics.topology.edges import proper_faces
 from geodesics.topology.orientation import orient_faces
 
 
 def angle_defect(mesh: Mesh) -> Floats:
-    """2 pi (pi on the boundary) minus the angles around each vertex, shape (n,), radians; 0 where there is no face.
+    r"""The angle defect, the numerator of :math:`|K_i|` below (4.5).
 
-    The numerator of |K_i| below (4.5). Over a closed surface it sums to 2 pi times the Euler characteristic.
+    .. math:: 2 \pi - \sum_f \theta_f \quad \text{(on the boundary } \pi - \sum_f \theta_f \text{)}
+
+    Over a closed surface it sums to :math:`2 \pi` times the Euler characteristic.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The surface, of n vertices.
+
+    Returns
+    -------
+    array of shape (n,)
+        Radians; 0 at a vertex on no face.
+
+    See Also
+    --------
+    gaussian_curvature : Per area, and smoothed.
     """
     faces = mesh.faces[proper_faces(mesh.faces)]
     theta = intrinsic.angles(intrinsic.squared_lengths(mesh.vertices, faces))
@@ -32,13 +48,35 @@ def angle_defect(mesh: Mesh) -> Floats:
     return flat - vertex_sums(faces, theta, mesh.n_vertices)
 
 
-def gaussian_curvature(mesh: Mesh, smoothing: float = DEFAULT) -> Floats:
-    """Gaussian curvature K (n,) in units of 1 / length^2: the angle defect, smoothed so that remeshing keeps it.
+def gaussian_curvature(mesh: Mesh, smoothing: float = DEFAULT_SMOOTHING) -> Floats:
+    r"""Gaussian curvature: the angle defect per area, smoothed so that remeshing keeps it.
 
-    One implicit heat step (A + div(tau grad)) K = defect whose time tau at each place is `smoothing` times the area of
-    the sphere of the same curvature: a part that grows is smoothed as it was, so |K| dA is invariant to local scale as
-    well. The boundary has no curvature of its own and takes over that of its neighbourhood. `smoothing` 0 gives K_i of
-    (4.5) with vertex areas of the intrinsic Delaunay triangulation.
+    One implicit heat step
+
+    .. math:: (A - \nabla \cdot \tau \nabla) \, K = \mathrm{defect}
+
+    whose time :math:`\tau` at each place is `smoothing` times the area :math:`4 \pi / |K|` of the sphere of the same
+    curvature. A part that grows is smoothed as it was, so :math:`|K| \, dA` is invariant to local scale as well. The
+    boundary has no curvature of its own and takes over that of its neighbourhood.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The surface, of n vertices.
+    smoothing : float
+        Without unit, not negative; 4e-3 by default; 0 gives :math:`K_i` of (4.5) with vertex areas of the intrinsic
+        Delaunay triangulation.
+
+    Returns
+    -------
+    array of shape (n,)
+        K in units of 1 / length^2.
+
+    See Also
+    --------
+    angle_defect : Before smoothing.
+    mean_curvature, principal_curvatures : The other curvatures, smoothed in the same way.
+    scale_invariant : The metric made of it.
     """
     triangulation = intrinsic_delaunay(mesh)
     interior = ~boundary_vertices(mesh)
@@ -47,11 +85,29 @@ def gaussian_curvature(mesh: Mesh, smoothing: float = DEFAULT) -> Floats:
     return smoothed_density(triangulation, defect, interior, time)
 
 
-def mean_curvature(mesh: Mesh, smoothing: float = DEFAULT) -> Floats:
-    """Mean curvature H (n,) in units of 1 / length, positive where a closed surface is convex.
+def mean_curvature(mesh: Mesh, smoothing: float = DEFAULT_SMOOTHING) -> Floats:
+    """Mean curvature, positive where a closed surface is convex.
 
-    2 H n is the Laplacian of position (W x = 2 A H n), n the normals of `vertex_normals`; smoothed as
-    `gaussian_curvature`.
+    .. math:: W x = 2 A H n
+
+    with x the positions, W the stiffness matrix, A the vertex areas and n the `vertex_normals`; smoothed as
+    `gaussian_curvature` is.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The surface, of n vertices.
+    smoothing : float
+        As of `gaussian_curvature`.
+
+    Returns
+    -------
+    array of shape (n,)
+        H in units of 1 / length.
+
+    See Also
+    --------
+    principal_curvatures : With the Gaussian curvature they give the principal ones.
     """
     triangulation, n = intrinsic_delaunay(mesh), mesh.n_vertices
     laplacian = cotangent_matrix(triangulation, n) @ (mesh.vertices - mesh.vertices.mean(axis=0))
@@ -61,8 +117,25 @@ def mean_curvature(mesh: Mesh, smoothing: float = DEFAULT) -> Floats:
     return smoothed_density(triangulation, bend, interior, time)
 
 
-def principal_curvatures(mesh: Mesh, smoothing: float = DEFAULT) -> tuple[Floats, Floats]:
-    """Principal curvatures k1 >= k2, each (n,) in units of 1 / length: H +- sqrt(H^2 - K), the root cut off at 0."""
+def principal_curvatures(mesh: Mesh, smoothing: float = DEFAULT_SMOOTHING) -> tuple[Floats, Floats]:
+    r"""Principal curvatures :math:`k_{1,2} = H \pm \sqrt{H^2 - K}`; where the radicand is negative it is taken as 0.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The surface, of n vertices.
+    smoothing : float
+        As of `gaussian_curvature`.
+
+    Returns
+    -------
+    k1, k2 : arrays of shape (n,)
+        In units of 1 / length, k1 >= k2.
+
+    See Also
+    --------
+    gaussian_curvature, mean_curvature : Their product and their mean.
+    """
     h = mean_curvature(mesh, smoothing)
     root = np.sqrt(np.maximum(h**2 - gaussian_curvature(mesh, smoothing), 0))
     return h + root, h - root
@@ -70,9 +143,19 @@ def principal_curvatures(mesh: Mesh, smoothing: float = DEFAULT) -> tuple[Floats
 
 @memoized
 def vertex_normals(mesh: Mesh) -> Floats:
-    """Unit normals (n, 3), the normals of the faces around each vertex weighted by angle; 0 where there are none.
+    """Unit normals of vertices: those of the faces around them, weighted by angle.
 
-    Faces are oriented consistently first, outward where the surface is closed (`orient_faces`).
+    Faces are oriented consistently first, outward where the surface is closed (see `orient_faces`).
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The surface, of n vertices.
+
+    Returns
+    -------
+    array of shape (n, 3)
+        Unit vectors; 0 where there is no face.
     """
     a, b, c = (mesh.vertices[corner] for corner in orient_faces(mesh).faces.T)
     normal = np.cross(b - a, c - a)
@@ -86,7 +169,8 @@ def vertex_normals(mesh: Mesh) -> Floats:
 def curvature_time(triangulation: IntrinsicTriangulation, defect: Floats, interior: Bools, smoothing: float) -> Floats:
     """`smoothing` times the area 4 pi / |K| of the sphere of the same curvature, per face (m,).
 
-    That curvature is a coarse look at K. At most `smoothing` times the area of the surface, where it is flat.
+    That curvature is K smoothed with one time everywhere. At most `smoothing` times the area of the surface, where it
+    is flat.
     """
     area = intrinsic.areas(triangulation.l_sq).sum()
     coarse = smoothed_density(triangulation, defect, interior, np.full(len(triangulation.faces), FIRST_LOOK * area))

@@ -1,4 +1,4 @@
-"""The intrinsic Delaunay triangulation: the same surface, cut along better edges."""
+"""The intrinsic Delaunay triangulation: the same surface, divided into triangles along other straight edges."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class IntrinsicTriangulation(NamedTuple):
 
 
 class GluedTriangulation(NamedTuple):
-    """Triangles that know their neighbours: faces (m, 3) and edge lengths (m, 3), edge k opposite corner k.
+    """Triangles with their neighbours: faces (m, 3) and edge lengths (m, 3), edge k opposite corner k.
 
     `origin` (m,) is the mesh face each row began as. `twin` (3 m,) is the other half-edge (3 * face + corner opposite)
     of an edge with exactly two faces that agree, else -1. `direction` (m, 3) is the angle of the edge from each corner
@@ -41,11 +41,32 @@ class GluedTriangulation(NamedTuple):
 
 @memoized
 def intrinsic_delaunay(mesh: Mesh) -> IntrinsicTriangulation:
-    """Edge flips until every edge is intrinsically Delaunay (Fisher et al. 2007); distances stay what they were.
+    """The intrinsic Delaunay triangulation, by edge flips; the surface and all distances on it stay the same.
 
-    Works on any mesh: edges with other than two faces stay, faces that name a vertex twice and copies of a face are
-    left out, and triangles of zero area are first made barely proper by lengthening every edge by the same 1e-9 or so
-    of the mean (Sharp, Crane 2020).
+    Works on any mesh: edges with one or more than two faces stay, faces that name a vertex twice and copies of a face
+    are left out, and triangles of zero area are first made barely proper by lengthening every edge by the same 1e-9 or
+    so of the mean.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The surface.
+
+    Returns
+    -------
+    faces : int array of shape (m, 3)
+        Triangles over the vertices of the mesh.
+    l_sq : array of shape (m, 3)
+        Their squared edge lengths along the surface; column k is the edge opposite corner k.
+
+    References
+    ----------
+    Fisher, Springborn, Schroeder, Bobenko: An algorithm for the construction of intrinsic Delaunay triangulations
+    (2007); Sharp, Crane: A Laplacian for nonmanifold triangle meshes (2020).
+
+    See Also
+    --------
+    stiffness : Assembled on these triangles for conformal metrics.
     """
     delaunay = glued_delaunay(mesh)
     return IntrinsicTriangulation(delaunay.faces, delaunay.lengths**2)
@@ -79,7 +100,7 @@ def mollified(lengths: Floats, relative: float = 1e-9) -> Floats:
 
 
 def glued(faces: Integers, lengths: Floats, origin: Integers, n: int) -> GluedTriangulation:
-    """Find twins, turn faces to agree, measure directions."""
+    """Find twins, turn faces so that neighbours agree, and measure directions."""
     twin = twins(faces)
     turn = flips.orientation(faces, twin)
     half_edge = np.arange(3 * len(faces)).reshape(-1, 3)

@@ -2,35 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal
-
-
-@dataclass(frozen=True)
-class Note:
-    """Something worth knowing about a mesh or a file that is no error.
-
-    Parameters
-    ----------
-    code, message : str
-        The code, such as W213, is stable across versions; the message is one sentence.
-    severity : {"info", "warning"}
-        A warning says that results may suffer.
-    indices, count : tuple of int, int
-        The first of the faces or vertices that are meant, and how many there are, where they are counted.
-    """
-
-    code: str
-    severity: Literal["info", "warning"]
-    message: str
-    indices: tuple[int, ...] = ()
-    count: int | None = None
-
-    def __str__(self) -> str:
-        return f"{self.code}: {self.message}"
+from geodesics.notes import Note as Note
 
 
 class _Coded(Exception):
+    """An error that begins with its code."""
+
     code: str
 
     def __str__(self) -> str:
@@ -38,13 +15,23 @@ class _Coded(Exception):
 
 
 class MeshError(_Coded, ValueError):
-    """Arrays that do not describe a triangle mesh; `code` is stable across versions."""
+    """Arrays that do not describe a triangle mesh; `code` is stable across versions.
+
+    See Also
+    --------
+    FormatError : A file that cannot be read.
+    """
 
     code = "E100"
 
 
 class FormatError(_Coded, ValueError):
-    """A file that cannot be read; `code` is stable across versions."""
+    """A file that cannot be read; `code` is stable across versions.
+
+    See Also
+    --------
+    MeshError : Arrays, or the content of a file, that are no triangle mesh.
+    """
 
     code = "E200"
 

@@ -31,10 +31,28 @@ def cotangent_matrix(
 
 
 def stiffness(metric: Metric) -> sp.csr_matrix:
-    """The positive semi-definite stiffness matrix a_kl (n, n) of (4.4), with free (Neumann) boundary.
+    r"""The stiffness matrix of (4.4), with free (Neumann) boundary.
 
-    In two dimensions the Dirichlet energy is conformally invariant: for rho * g it is the cotangent matrix of g,
-    taken here on the intrinsic Delaunay triangulation, where its off-diagonal entries are never positive.
+    .. math:: a_{kl} = \int_S \langle \nabla \psi_k, \nabla \psi_l \rangle \, da
+              = - \tfrac12 (\cot \alpha_{kl} + \cot \beta_{kl}) \quad (k \ne l)
+
+    In two dimensions the Dirichlet energy is conformally invariant: for a metric :math:`\rho g` it is the cotangent
+    matrix of g, taken here on the intrinsic Delaunay triangulation, where no off-diagonal entry is positive.
+
+    Parameters
+    ----------
+    metric : Metric
+        The metric, on a mesh of n vertices.
+
+    Returns
+    -------
+    sparse matrix of shape (n, n)
+        Symmetric and positive semi-definite; it has no unit.
+
+    See Also
+    --------
+    lumped_mass, galerkin_mass : The other side of the eigenproblem.
+    eigenpairs : Its solutions.
     """
     if metric.conformal_factor is not None:
         return cotangent_matrix(intrinsic_delaunay(metric.mesh), metric.mesh.n_vertices)
@@ -42,10 +60,26 @@ def stiffness(metric: Metric) -> sp.csr_matrix:
 
 
 def tensor_stiffness(faces: Integers, tensor: Floats, n: int) -> sp.csr_matrix:
-    """The stiffness matrix a_kl (n, n) of (4.4) for a metric tensor g_ij (m, 2, 2) per face.
+    r"""The stiffness matrix of (4.4) as the paper writes it, for a metric tensor per face.
 
-    a_kl sums g^ij (d_i psi_l) (d_j psi_k) sqrt(det g) / 2 over faces, in barycentric coordinates (see `intrinsic`).
-    Equals `cotangent_matrix` of the lengths that the tensor gives; it is the formula as the paper writes it.
+    .. math:: a_{kl} = \sum_{\text{faces}} \tfrac12 \sqrt{\det g} \; g^{ij} \, \partial_i \psi_l \, \partial_j \psi_k
+
+    Derivatives are those of barycentric coordinates (see `geodesics.intrinsic`). Equals `cotangent_matrix` of the
+    lengths that the tensor gives.
+
+    Parameters
+    ----------
+    faces : int array of shape (m, 3)
+        Triangles.
+    tensor : array of shape (m, 2, 2)
+        The metric tensor :math:`g_{ij}` of each.
+    n : int
+        Number of vertices.
+
+    Returns
+    -------
+    sparse matrix of shape (n, n)
+        Symmetric and positive semi-definite.
     """
     gradient = np.array([[-1.0, -1], [1, 0], [0, 1]])  # of psi_0, psi_1, psi_2 in (u, v)
     area = 0.5 * np.sqrt(np.linalg.det(tensor))
@@ -54,12 +88,46 @@ def tensor_stiffness(faces: Integers, tensor: Floats, n: int) -> sp.csr_matrix:
 
 
 def lumped_mass(metric: Metric) -> sp.dia_matrix:
-    """The diagonal mass matrix (n, n): b_kl of (4.4) summed over each row."""
+    """The diagonal mass matrix: :math:`b_{kl}` of (4.4) summed over each row.
+
+    Parameters
+    ----------
+    metric : Metric
+        The metric, on a mesh of n vertices.
+
+    Returns
+    -------
+    sparse matrix of shape (n, n)
+        ``metric.mass`` on the diagonal, in units of area.
+
+    See Also
+    --------
+    galerkin_mass : Before rows are summed.
+    """
     return sp.diags(metric.mass)
 
 
 def galerkin_mass(metric: Metric) -> sp.csr_matrix:
-    """The full mass matrix b_kl (n, n) of (4.4), the integral of psi_k psi_l; rho * g takes rho linear on faces."""
+    r"""The full mass matrix of (4.4).
+
+    .. math:: b_{kl} = \int_S \psi_k \psi_l \, da
+
+    In a metric :math:`\rho g` the factor is taken as linear on faces.
+
+    Parameters
+    ----------
+    metric : Metric
+        The metric, on a mesh of n vertices.
+
+    Returns
+    -------
+    sparse matrix of shape (n, n)
+        Symmetric and positive definite, in units of area.
+
+    See Also
+    --------
+    lumped_mass : Its rows summed to the diagonal.
+    """
     n = metric.mesh.n_vertices
     pattern = np.ones((3, 3)) + np.eye(3)
     if metric.conformal_factor is None:

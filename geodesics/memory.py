@@ -1,4 +1,4 @@
-"""Tables that would not fit are refused before any of them is taken."""
+"""Tables that would not fit into memory are refused before they are allocated."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ import numpy as np
 from geodesics.arrays import Floats
 from geodesics.errors import WouldExceedMemory
 
-WORTH_ASKING = 100_000_000  # bytes: less is taken without looking
-SHARE = 0.9  # of the free memory that one table may have
+WORTH_ASKING = 100_000_000  # bytes; smaller tables are allocated unchecked, as no machine lacks them. A convention
+SHARE = 0.9  # of the free memory that one table may take. A convention: the rest is for what is computed beside it
 
 
 def table(rows: int, columns: int, what: str, instead: str) -> Floats:
@@ -27,7 +27,7 @@ def table(rows: int, columns: int, what: str, instead: str) -> Floats:
 
 
 def available() -> float:
-    """Bytes that may be taken now: what the system and the control group have left; inf where nobody knows."""
+    """Bytes that can be allocated now: what the system and the control group have left; inf where neither says."""
     return min(_of_the_system(), _of_the_group(Path("/sys/fs/cgroup")))
 
 
@@ -37,7 +37,7 @@ def _of_the_system() -> float:
         return next(1024.0 * int(line.split()[1]) for line in lines if line.startswith("MemAvailable:"))
     except (OSError, StopIteration, ValueError):
         pass
-    try:  # without /proc: half of all there is
+    try:  # without /proc: half of the memory of the machine
         return 0.5 * os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
     except (AttributeError, OSError, ValueError):
         return math.inf

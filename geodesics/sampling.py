@@ -16,7 +16,7 @@ from geodesics.points import SurfacePoints
 from geodesics.topology.components import vertex_components
 
 Closer = Callable[[int, Floats], tuple[Integers, Floats]]
-FEW = 4  # components of fewer vertices get no sample of their own
+FEW = 4  # vertices; smaller components get no sample of their own. A convention: the smallest closed surface has four
 
 
 @runtime_checkable
@@ -36,10 +36,37 @@ class Cells(NamedTuple):
 
 
 def farthest_point_sampling(distance: Distance, count: int, first: int | None = None) -> Integers:
-    """`count` vertices (count,), each the farthest from those before it (Gonzalez 1985; sec. 5, Fig. 6).
+    """Vertices of which each is the farthest from those before it (sec. 5, Fig. 6).
 
-    Starts at vertex `first`, else at the vertex farthest from the centroid. Every component of at least four vertices
-    gets its sample; an isolated vertex is never chosen. Raises `ValueError` when `count` is more than there are.
+    Every component of at least four vertices gets a sample as soon as those before it leave none nearer; an isolated
+    vertex is never chosen.
+
+    Parameters
+    ----------
+    distance : Distance
+        What "farthest" means; its mesh has n vertices.
+    count : int
+        Number k of samples.
+    first : int, optional
+        The vertex to begin with; else the one farthest from the centroid.
+
+    Returns
+    -------
+    int array of shape (k,)
+        Vertices.
+
+    Raises
+    ------
+    ValueError
+        When there are fewer vertices that can be chosen, or `first` is none of these.
+
+    References
+    ----------
+    Gonzalez: Clustering to minimize the maximum intercluster distance (1985).
+
+    See Also
+    --------
+    voronoi_cells : The vertices nearest to each sample.
     """
     return farthest_point_cells(distance, count, first).samples
 
@@ -68,7 +95,24 @@ def farthest_point_cells(distance: Distance, count: int, first: int | None = Non
 
 
 def voronoi_cells(distance: Distance, samples: ArrayLike) -> Integers:
-    """The index into `samples` (count,) of the nearest one for every vertex (n,), or -1: the cells of Fig. 6."""
+    """The nearest sample of every vertex: the cells of Fig. 6.
+
+    Parameters
+    ----------
+    distance : Distance
+        What "nearest" means; its mesh has n vertices.
+    samples : array_like of shape (k,)
+        Vertices.
+
+    Returns
+    -------
+    int array of shape (n,)
+        Index into `samples`, or -1 where no sample can be reached.
+
+    See Also
+    --------
+    farthest_point_sampling : Samples that are evenly spread.
+    """
     n, closer = distance.mesh.n_vertices, _spreader(distance)
     nearest, cell = np.full(n, np.inf), np.full(n, -1, dtype=np.int64)
     for i, vertex in enumerate(np.asarray(samples, dtype=np.int64).reshape(-1)):

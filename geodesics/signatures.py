@@ -1,7 +1,7 @@
-"""Point signatures from the heat and wave equation, all from eigenpairs.
+"""Signatures of points from the heat equation, computed from eigenpairs.
 
 Times are relative, t = time * area with the area of the surface in the metric of the spectrum, so that no signature
-depends on the unit of length more than its formula says.
+depends on the unit of length more than its formula does.
 """
 
 from __future__ import annotations
@@ -11,15 +11,40 @@ from numpy.typing import ArrayLike
 
 from geodesics.arrays import Floats
 from geodesics.memory import table
+from geodesics.moved_paths import names_moved
 from geodesics.points import SurfacePoints
 from geodesics.spectrum import Spectrum
 
 
 def heat_kernel(spectrum: Spectrum, time: float, points: SurfacePoints) -> Floats:
-    """Heat kernel h_t(s, s') = sum_i exp(-lambda_i t) phi_i(s) phi_i(s') (sec. 3), from points to vertices: (p, n).
+    r"""The heat kernel from points to all vertices (sec. 3).
 
-    `time` >= 0 in units of the surface area; values in units of 1 / area. Raises `WouldExceedMemory` (E501) when the
-    table does not fit.
+    .. math:: h_t(s, s') = \sum_i e^{-\lambda_i t} \phi_i(s) \phi_i(s')
+
+    Parameters
+    ----------
+    spectrum : Spectrum
+        k eigenpairs of the surface in some metric.
+    time : float
+        :math:`t` in units of the area of the surface, not negative.
+    points : SurfacePoints
+        The p points s.
+
+    Returns
+    -------
+    array of shape (p, n)
+        Values in units of 1 / area.
+
+    Raises
+    ------
+    ValueError
+        When the time is negative or not finite.
+    WouldExceedMemory
+        E501 when the table does not fit.
+
+    See Also
+    --------
+    heat_kernel_signature : Its diagonal.
     """
     fade = np.exp(-spectrum.eigenvalues * (_times(time)[0] * spectrum.mass.sum()))
     result = table(len(points), len(spectrum.mass), "values of the heat kernel", "take fewer points at a time")
@@ -27,15 +52,61 @@ def heat_kernel(spectrum: Spectrum, time: float, points: SurfacePoints) -> Float
 
 
 def heat_kernel_signature(spectrum: Spectrum, times: ArrayLike) -> Floats:
-    """HKS(s, t) = h_t(s, s) = sum_i exp(-lambda_i t) phi_i(s)^2 (5.1) at every vertex: (n, number of times).
+    r"""The heat-kernel signature (5.1) of every vertex.
 
-    `times` >= 0 in units of the surface area; values in units of 1 / area.
+    .. math:: \mathrm{HKS}(s, t) = h_t(s, s) = \sum_i e^{-\lambda_i t} \phi_i(s)^2
+
+    Parameters
+    ----------
+    spectrum : Spectrum
+        k eigenpairs of the surface in some metric.
+    times : array_like of shape (q,)
+        :math:`t` in units of the area of the surface, not negative.
+
+    Returns
+    -------
+    array of shape (n, q)
+        Values in units of 1 / area.
+
+    Raises
+    ------
+    ValueError
+        When a time is negative or not finite.
+
+    References
+    ----------
+    (5.1) of Aflalo, Kimmel, Raviv 2013; Sun, Ovsjanikov, Guibas: A concise and provably informative multi-scale
+    signature based on heat diffusion (2009).
+
+    See Also
+    --------
+    scaled_heat_kernel_signature : Normalised at every time.
+    scale_invariant_heat_kernel_signature : Its Fourier magnitudes.
     """
     return spectrum.eigenfunctions**2 @ _fading(spectrum, times)
 
 
 def scaled_heat_kernel_signature(spectrum: Spectrum, times: ArrayLike) -> Floats:
-    """HKS(s, t) / integral over S of HKS(s, t) da(s), as plotted in Fig. 5 (sec. 5): (n, number of times)."""
+    r"""The heat-kernel signature as plotted in Fig. 5 (sec. 5): divided by its integral over the surface.
+
+    .. math:: \mathrm{HKS}(s, t) \Big/ \int_S \mathrm{HKS}(s, t) \, da(s)
+
+    Parameters
+    ----------
+    spectrum : Spectrum
+        k eigenpairs of the surface in some metric.
+    times : array_like of shape (q,)
+        :math:`t` in units of the area of the surface, not negative.
+
+    Returns
+    -------
+    array of shape (n, q)
+        Values in units of 1 / area.
+
+    See Also
+    --------
+    heat_kernel_signature : Without the division.
+    """
     signature = heat_kernel_signature(spectrum, times)
     return signature / (spectrum.mass @ signature)
 
@@ -43,11 +114,40 @@ def scaled_heat_kernel_signature(spectrum: Spectrum, times: ArrayLike) -> Floats
 def scale_invariant_heat_kernel_signature(
     spectrum: Spectrum, times: ArrayLike | None = None, n_frequencies: int = 6
 ) -> Floats:
-    """SI-HKS(s, xi) = |F d/d eta log HKS(s, eta)|, eta = log t (footnote 1): (n, n_frequencies), no unit.
+    r"""The scale-invariant heat-kernel signature of every vertex (footnote 1).
 
-    `times` must grow by a constant factor; by default 64 times over the range that the spectrum resolves. On the whole
-    line scaling the surface shifts eta, and the Fourier magnitude forgets the shift (Bronstein, Kokkinos 2010); here
-    times are relative to the area already, so it forgets the scale of the part around s. Vertices on no face get 0.
+    .. math:: \Big| \mathcal{F} \, \frac{d}{d \eta} \log \mathrm{HKS}(s, \eta) \Big| (\xi), \qquad \eta = \log t
+
+    On the whole line scaling the surface shifts :math:`\eta`, and the Fourier magnitude does not depend on the shift.
+    Here times are relative to the area already, so it is the scale of the part around s that cancels.
+
+    Parameters
+    ----------
+    spectrum : Spectrum
+        k eigenpairs of the surface in some metric.
+    times : array_like of shape (q,), optional
+        Positive times that grow by a constant factor, in units of the area; by default 64 over the range that the
+        spectrum resolves.
+    n_frequencies : int
+        Number of frequencies :math:`\xi`, from 0.
+
+    Returns
+    -------
+    array of shape (n, n_frequencies)
+        Values without a unit; 0 at vertices on no face.
+
+    Raises
+    ------
+    ValueError
+        When there are fewer than three times, or they do not grow by a constant factor.
+
+    References
+    ----------
+    Bronstein, Kokkinos: Scale-invariant heat kernel signatures for non-rigid shape recognition (2010).
+
+    See Also
+    --------
+    heat_kernel_signature : The signature that is transformed.
     """
     t = resolved_times(spectrum, 64) if times is None else _times(times)
     if len(t) < 3 or np.any(t <= 0) or not np.allclose(t[1:] / t[:-1], t[1] / t[0], rtol=1e-6):
@@ -61,23 +161,6 @@ def scale_invariant_heat_kernel_signature(
     result = np.zeros((len(used), n_frequencies))
     result[used] = np.abs(np.fft.fft(slope / signature, axis=1))[:, :n_frequencies] / len(t)
     return result
-
-
-def wave_kernel_signature(spectrum: Spectrum, n_energies: int = 100, width: float = 7.0) -> Floats:
-    """WKS(s, e) = sum_i phi_i(s)^2 w_i(e) / sum_i w_i(e): (n, n_energies); w_i is a Gaussian around log lambda_i.
-
-    Aubry, Schlickewei, Cremers 2011 (beside the signatures of sec. 5). Energies run evenly from log lambda_1 + 2 sigma
-    to log lambda_max - 2 sigma, sigma = `width` steps; values in units of 1 / area. Needs two positive eigenvalues.
-    """
-    positive = spectrum.eigenvalues * spectrum.mass.sum() > 1e-6
-    if np.count_nonzero(positive) < 2:
-        raise ValueError("the wave kernel signature needs at least two positive eigenvalues")
-    log = np.log(spectrum.eigenvalues[positive])
-    sigma = width * (log[-1] - log[0]) / (n_energies - 1 + 4 * width)
-    energies = np.linspace(log[0] + 2 * sigma, log[-1] - 2 * sigma, n_energies)
-    exponent = -((energies - log[:, None]) ** 2) / (2 * max(sigma, np.finfo(float).tiny) ** 2)
-    weights = np.exp(exponent - exponent.max(axis=0))
-    return spectrum.eigenfunctions[:, positive] ** 2 @ (weights / weights.sum(axis=0))
 
 
 def resolved_times(spectrum: Spectrum, count: int) -> Floats:
@@ -102,3 +185,6 @@ def _times(times: ArrayLike) -> Floats:
 def _fading(spectrum: Spectrum, times: ArrayLike) -> Floats:
     """exp(-lambda_i t), shape (number of eigenpairs, number of times)."""
     return np.exp(-np.outer(spectrum.eigenvalues * spectrum.mass.sum(), _times(times)))
+
+
+__getattr__ = names_moved(__name__, ("geodesics.wave_signature",))

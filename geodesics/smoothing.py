@@ -8,7 +8,7 @@ from __future__ import annotations
 
 # Gaussian and mean curvature, unless the caller says otherwise. Chosen together with FIRST_LOOK, which is a share of
 # the area of the whole surface, on one half of the shapes of benchmarks/stability/curvature_stability.py.
-DEFAULT = 4e-3
+DEFAULT_SMOOTHING = 4e-3
 FIRST_LOOK = 3e-3
 
 # The curvature of the equi-affine metric, which takes four derivatives of position instead of two. Set by hand.

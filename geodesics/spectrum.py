@@ -18,16 +18,30 @@ from geodesics.mesh import Mesh
 from geodesics.metric import Metric
 from geodesics.threads import on_one_blas_thread
 
+# Shift of the Laplacian per eigenpair, in units of 1 / area; by Weyl's law, 4 pi of these units per eigenpair, it is a
+# twentieth of the last eigenvalue. Not sensitive: 200 eigenpairs of 5,000 vertices take 73 to 79 steps with 0.1 to 2.4.
 SHIFT = 0.6
-"""Of the Laplacian for each eigenpair, in units of 1 / area: a fortieth of the last eigenvalue by Weyl's law."""
 
 
 @dataclass(frozen=True, eq=False)
 class Spectrum:
-    """Eigenvalues (count,) ascending from 0, in units of 1 / area, and eigenfunctions (n, count).
+    r"""Eigenvalues and eigenfunctions of the Laplace-Beltrami operator in some metric.
 
-    Eigenfunctions are orthonormal in the mass matrix; `mass` (n,) is the lumped one: integrals over the surface
-    are `mass @ values`.
+    Parameters
+    ----------
+    mesh : Mesh
+        The surface, of n vertices.
+    mass : array of shape (n,)
+        Lumped mass: integrals over the surface are ``mass @ values``.
+    eigenvalues : array of shape (k,)
+        :math:`\lambda_i`, ascending from 0, in units of 1 / area.
+    eigenfunctions : array of shape (n, k)
+        :math:`\phi_i` in columns, orthonormal in the mass matrix that they were computed with.
+
+    See Also
+    --------
+    eigenpairs : Computes them.
+    DiffusionDistance, CommuteTimeDistance, BiharmonicDistance : Distances made of them.
     """
 
     mesh: Mesh
@@ -45,13 +59,44 @@ def eigenpairs(
     fixed: Bools | None = None,
     tolerance: float = 1e-8,
 ) -> Spectrum:
-    """The `count` smallest eigenpairs of A alpha = lambda B alpha (sec. 4, (4.4)), repeatable from run to run.
+    r"""The smallest eigenpairs of the Laplace-Beltrami operator (sec. 4, (4.4)), the same from run to run.
 
-    `mass` makes B: `lumped_mass` or `galerkin_mass`. The boundary is free (Neumann); functions vanish where `fixed`
-    (n,) is True (Dirichlet: `fixed=boundary_vertices(mesh)`). Vertices without mass (on no face) get zero rows; a mesh
-    with fewer free vertices than `count` gives as many eigenpairs as it has. Residuals, in the norm of the mass, are at
-    most `tolerance` times the eigenvalue (times 1 / area for those below it), as far as rounding lets them: about 1e-16
-    of the largest eigenvalue. Raises `EigensolverFailed` (E402).
+    .. math:: A \, \alpha = \lambda \, B \, \alpha
+
+    Parameters
+    ----------
+    metric : Metric
+        The metric, on a mesh of n vertices.
+    count : int
+        Number of eigenpairs; a mesh with fewer free vertices gives as many as it has.
+    mass : callable
+        Makes B from the metric: `lumped_mass` or `galerkin_mass`.
+    fixed : bool array of shape (n,), optional
+        Vertices where functions vanish (Dirichlet), for instance ``boundary_vertices(mesh)``; the rest of the boundary
+        is free (Neumann).
+    tolerance : float
+        Residuals, in the norm of the mass, are at most this times the eigenvalue (times 1 / area for smaller ones), as
+        far as rounding allows: about 1e-16 of the largest eigenvalue of the matrices.
+
+    Returns
+    -------
+    Spectrum
+        Vertices without mass (on no face) have zero rows.
+
+    Raises
+    ------
+    ValueError
+        When `count` is less than 1.
+    EigensolverFailed
+        E402 when the iteration does not converge.
+
+    References
+    ----------
+    (4.4) of Aflalo, Kimmel, Raviv 2013; Simon: The Lanczos algorithm with partial reorthogonalization (1984).
+
+    See Also
+    --------
+    stiffness, lumped_mass, galerkin_mass : The matrices A and B.
     """
     if count < 1:
         raise ValueError(f"count must be at least 1, not {count}")

@@ -25,7 +25,7 @@ from geodesics.metric import conformal
 from geodesics.metrics._regularised import regularised
 from geodesics.one_ring import one_ring_curvature
 from geodesics.repair.remeshing import remesh
-from geodesics.smoothing import DEFAULT, FIRST_LOOK
+from geodesics.smoothing import DEFAULT_SMOOTHING, FIRST_LOOK
 from geodesics.topology.components import boundary_vertices
 
 Array = NDArray[np.float64]
@@ -58,7 +58,7 @@ ESTIMATORS: dict[str, Estimator | None] = {
     "fixed time 3e-3": fixed_time(3e-3),
     "local time 1e-3": lambda mesh: gaussian_curvature(mesh, 1e-3),
     "local time 2e-3": lambda mesh: gaussian_curvature(mesh, 2e-3),
-    f"**local time {DEFAULT:g} (default)**": gaussian_curvature,
+    f"**local time {DEFAULT_SMOOTHING:g} (default)**": gaussian_curvature,
     "local time 8e-3": lambda mesh: gaussian_curvature(mesh, 8e-3),
     "local time 1.6e-2": lambda mesh: gaussian_curvature(mesh, 1.6e-2),
 }

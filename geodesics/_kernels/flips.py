@@ -9,12 +9,12 @@ import numpy as np
 from geodesics._kernels.jit import njit
 from geodesics.arrays import Bools, Floats, Integers
 
-FAN_GAP = 1000.0  # radians between two fans of faces that meet only in a vertex: far more than any angle
+FAN_GAP = 1000.0  # radians between two fans of faces that meet only in a vertex: a bound, more than any sum of angles
 
 
 @njit
 def orientation(faces: Integers, twin: Integers) -> Bools:
-    """Faces (m,) to turn over so that neighbours agree; pairs of twins (3 m,) that can not agree are set to -1."""
+    """Faces (m,) to turn over so that neighbours agree; pairs of twins (3 m,) that cannot agree are set to -1."""
     m = faces.shape[0]
     sign = np.zeros(m, dtype=np.int64)
     stack = np.empty(m, dtype=np.int64)

@@ -15,9 +15,9 @@ Table = tuple[Integers, Integers, Floats]
 Triple = tuple[float, float, float]
 
 UNSEEN, ACCEPTED = -1, -2  # in place of a position in the heap
-HALF_GAP = 500.0  # radians: directions further apart are of two fans of faces that meet only in the vertex
-ALONG = -math.inf  # in place of a direction: by the edge from a neighbour, to be measured if it comes to that
-VISITS = 20  # how often a vertex may be accepted anew
+HALF_GAP = 500.0  # radians: directions further apart belong to different fans; half of `flips.FAN_GAP`
+ALONG = -math.inf  # in place of a direction: along the edge from a neighbour, computed when it is needed
+VISITS = 20  # times that a vertex may be accepted: a bound that ends the loop; on published meshes there were at most 8
 
 
 class Corners(NamedTuple):
@@ -35,7 +35,7 @@ class Corners(NamedTuple):
 
 
 class Front(NamedTuple):
-    """A front that moves; row v of `state` (n, 6) is distance, direction back, and offset of the source at vertex v,
+    """A moving front; row v of `state` (n, 6) is distance, direction back, and offset of the source at vertex v,
     then three constants: whole angle, slowness, and how far beyond `nearest` the front may go.
 
     `position` (n,) is the place in the heap, `visits` (n,) how often a vertex was accepted, `heap` and `keys` (n,) are
@@ -202,7 +202,7 @@ def _modulo(direction: float, whole: float) -> float:
 
 @inlined
 def _behind(shape: Floats, q: int, side: int, edge: float, distance: float) -> bool:
-    """True when the far vertex of corner q's face, nearer than v, can not be lowered through the edge on this `side`.
+    """True when the far vertex of corner q's face, nearer than v, cannot be lowered through the edge on this `side`.
 
     That edge and the source must lie on v's side of the middle between v and the far vertex: an acute angle there
     is enough for a source at infinity, and near ones are excluded by their distance.
@@ -215,8 +215,8 @@ def _behind(shape: Floats, q: int, side: int, edge: float, distance: float) -> b
 def _beside(table: Table, state: Floats, v: int) -> float:
     """The direction back from v, reached along an edge, to the source as seen from the start of that edge.
 
-    It is the edge's own for a path that goes straight on, or past a saddle or border. Else the better path still to
-    come runs beside the edge, and this is where it comes from.
+    It is the edge's own for a path that goes straight on, or past a saddle or border. Otherwise a shorter path that is
+    found later runs beside the edge, and this is its direction.
     """
     start, ends, shape = table
     for q in range(start[v], start[v + 1]):
@@ -258,7 +258,7 @@ def march(corners: Corners, front: Front, until: Until) -> None:
         if dv > nearest[v] + state[v, 5]:
             continue
         late = False
-        for anew in range(2):  # what was accepted before is lowered last, so that the order of faces does not matter
+        for anew in range(2):  # accepted vertices are lowered last, so that the order of faces does not matter
             if anew and not late:
                 break
             for q in range(start[v], start[v + 1]):

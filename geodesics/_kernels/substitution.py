@@ -12,7 +12,7 @@ from geodesics.arrays import Floats
 
 Indices = NDArray[np.int32]
 
-WIDTH = 8  # scalars, as eight of them stay in registers and loops over them do not
+WIDTH = 8  # right-hand sides at a time, by hand as eight scalars, which stay in registers where an array would not
 
 
 class Triangle(NamedTuple):

@@ -7,8 +7,7 @@ import numpy as np
 from geodesics._kernels.jit import njit
 from geodesics.arrays import Floats, Integers
 
-NO_NEIGHBOUR = -1
-"""What `neighbour[f, k]` holds where nothing lies across the edge of face f opposite corner k."""
+NO_NEIGHBOUR = -1  # in `neighbour[f, k]`, where nothing lies across the edge of face f opposite corner k
 
 
 @njit

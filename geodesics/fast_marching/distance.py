@@ -23,12 +23,28 @@ from geodesics.points import SurfacePoints
 
 @dataclass(frozen=True, eq=False)
 class GeodesicDistance:
-    """Geodesic distance in a metric, by fast marching (Kimmel, Sethian 1998) with unfolded sources.
+    """Geodesic distance in a metric, by fast marching with unfolded sources.
 
-    With the scale-invariant metric these are the scale invariant geodesics of the abstract.
-    A conformal metric is marched over the intrinsic Delaunay triangulation of the embedded one, whose angles it
-    shares; any other metric over the mesh's own faces. At most `threads` sources are marched at once; the numbers do
-    not depend on it.
+    In the scale-invariant metric its paths are the scale invariant geodesics of the abstract. A conformal metric is
+    marched over the intrinsic Delaunay triangulation of the embedded one, whose angles it shares; any other metric over
+    the mesh's own faces.
+
+    Parameters
+    ----------
+    metric : Metric
+        The metric, on a mesh of n vertices.
+    threads : int
+        Sources that are marched at once, at most; the numbers do not depend on it.
+
+    References
+    ----------
+    Kimmel, Sethian: Computing geodesic paths on manifolds (1998); Novotni, Klein: Computing geodesic distances on
+    triangular meshes (2002).
+
+    See Also
+    --------
+    DiffusionDistance, CommuteTimeDistance, BiharmonicDistance : Distances from eigenpairs, less sensitive to topology.
+    farthest_point_sampling : Evenly spread samples in this distance.
     """
 
     metric: Metric
@@ -40,9 +56,24 @@ class GeodesicDistance:
         return self.metric.mesh
 
     def field(self, points: SurfacePoints, *, limit: float = np.inf) -> Floats:
-        """Distances (p, n) from each of p points to every vertex; +inf where unreachable or farther than `limit`.
+        """Distances from each of p points to every vertex.
 
-        Raises `WouldExceedMemory` (E501) when the table does not fit.
+        Parameters
+        ----------
+        points : SurfacePoints
+            Points of the mesh.
+        limit : float
+            Where fronts stop, in the unit of the metric.
+
+        Returns
+        -------
+        array of shape (p, n)
+            Distances; +inf where unreachable or farther than `limit`.
+
+        Raises
+        ------
+        WouldExceedMemory
+            E501 when the table does not fit.
         """
         out = table(len(points), self.mesh.n_vertices, "distances", FEWER_POINTS)
         around = seeds(self.metric, points)
@@ -73,10 +104,28 @@ class GeodesicDistance:
         stop: ArrayLike | None = None,
         limit: float = np.inf,
     ) -> Floats:
-        """Distances (n,) to the nearest of the points: min over i of values[i] + d(points[i], x), values 0 by default.
+        """Distances to the nearest of p points, each with a head start: min over i of values[i] + d(points[i], x).
 
-        The front stops at distance `limit`, and when it has passed all the vertices in `stop`; what it did not reach
-        is +inf. Raises `ValueError` unless there is one finite value a point.
+        Parameters
+        ----------
+        points : SurfacePoints
+            Points of the mesh.
+        values : array_like of shape (p,), optional
+            Finite offsets in the unit of the metric; 0 by default.
+        stop : array_like of int, optional
+            Vertices; the front stops when it has passed all of them.
+        limit : float
+            Where the front stops in any case.
+
+        Returns
+        -------
+        array of shape (n,)
+            Distances; +inf where the front did not arrive.
+
+        Raises
+        ------
+        ValueError
+            Unless there is one finite value per point.
         """
         start = np.zeros(len(points)) if values is None else np.array(values, dtype=np.float64)
         if start.shape != (len(points),) or not np.isfinite(start).all():
@@ -90,10 +139,15 @@ class GeodesicDistance:
         return out
 
     def spreader(self) -> Callable[[int, Floats], tuple[Integers, Floats]]:
-        """A function (vertex, nearest (n,)) -> the vertices closer to this one than `nearest`, and their distances.
+        """The search for the vertices that a new sample is closest to, for `farthest_point_sampling`.
 
         Its front stops a little way into what is nearer to others, so that the cells of all samples together cost no
         more than a few fields.
+
+        Returns
+        -------
+        callable
+            (vertex, nearest (n,)) -> the vertices closer to this one than `nearest`, and their distances.
         """
         front, at_vertex = fresh_front(self.metric), np.array([[0.0, np.nan]])
         until = _until(self.metric)

@@ -1,4 +1,4 @@
-"""What a marching front needs to know of the surface."""
+"""The tables of a marching front: corners, lengths and slowness of the triangles that it crosses."""
 
 from __future__ import annotations
 

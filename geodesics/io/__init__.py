@@ -38,17 +38,58 @@ _READERS: dict[str, Callable[[bytes, Path], Contents]] = {
 
 
 def read_mesh(path: str | os.PathLike[str]) -> Mesh:
-    """The mesh in an OFF, OBJ, PLY, STL, GLB or TOSCA .vert/.tri file, vertices in the order of the file.
+    """Read a mesh from a file, vertices in the order of the file.
 
-    The content decides the format, not the name. Larger polygons are split into triangles, STL corners at equal
-    positions are welded; `read_with_notes` tells whether that happened. Raises `FormatError` or `MeshError` naming
-    the file and line, and `OSError` for a path that can not be opened. No other file is ever opened.
+    The content decides the format, not the name. Larger polygons are split into triangles, and corners of an STL file
+    at equal positions are welded; `read_with_notes` reports it. No other file is ever opened.
+
+    Parameters
+    ----------
+    path : str or path
+        An OFF, OBJ, PLY, STL or GLB file; of a TOSCA shape the .vert file, the .tri file, or their common stem.
+
+    Returns
+    -------
+    Mesh
+        In the unit of the file.
+
+    Raises
+    ------
+    FormatError
+        E201 - E209 and E222, naming the file and line.
+    MeshError
+        Where the content is no triangle mesh, naming the file.
+    OSError
+        When the path cannot be opened.
+
+    See Also
+    --------
+    read_with_notes : With notes on what was changed.
+    write_mesh : The inverse.
     """
     return read_with_notes(path)[0]
 
 
 def read_with_notes(path: str | os.PathLike[str]) -> tuple[Mesh, list[Note]]:
-    """As `read_mesh`, with notes on what reading had to change: split polygons (W210), welded corners (W211)."""
+    """Read a mesh from a file, with notes on what had to be changed.
+
+    Parameters
+    ----------
+    path : str or path
+        As of `read_mesh`.
+
+    Returns
+    -------
+    mesh : Mesh
+        In the unit of the file.
+    notes : list of Note
+        Split polygons (W210), welded corners (W211).
+
+    Raises
+    ------
+    FormatError, MeshError, OSError
+        As `read_mesh` does.
+    """
     path = Path(path)
     if not path.exists() and tosca_paths(path)[0].exists():
         contents = read_tosca(path)
@@ -62,9 +103,29 @@ def read_with_notes(path: str | os.PathLike[str]) -> tuple[Mesh, list[Note]]:
 
 
 def write_mesh(mesh: Mesh, path: str | os.PathLike[str]) -> None:
-    """Write `mesh` in the format of the suffix: .off, .obj, .ply, .stl, .glb, .vert or .tri (both files).
+    """Write a mesh in the format of the suffix. Each file is complete or untouched.
 
-    Each file is complete or untouched. OFF, OBJ, PLY and TOSCA keep every bit; STL and GLB are single precision.
+    OFF, OBJ, PLY and TOSCA keep every bit; STL and GLB are single precision.
+
+    Parameters
+    ----------
+    mesh : Mesh or mesh object
+        The mesh, or one of trimesh, pyvista, meshio or Open3D.
+    path : str or path
+        Ending in .off, .obj, .ply, .stl, .glb, .vert or .tri (either of these two writes both files).
+
+    Raises
+    ------
+    FormatError
+        E203 for another suffix.
+    MeshError
+        E102 when coordinates do not fit into single precision.
+    OSError
+        When the file cannot be written.
+
+    See Also
+    --------
+    read_mesh : The inverse.
     """
     path = Path(path)
     for suffix, data in encode(Mesh.from_object(mesh), path.suffix.lower()).items():

@@ -12,8 +12,8 @@ import numpy as np
 from geodesics.errors import BadContainer, ExternalReference, TruncatedFile
 from geodesics.io.text import Contents
 
-_ITEM_BYTES = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}
-_ITEMS = {"SCALAR": 1, "VEC3": 3}
+_ITEM_BYTES = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}  # by componentType (glTF 2.0, sec. 3.6.2.2)
+_ITEMS = {"SCALAR": 1, "VEC3": 3}  # numbers in an element, by type of accessor
 
 
 def read_glb(data: bytes, path: Path) -> Contents:
@@ -32,7 +32,7 @@ def read_glb(data: bytes, path: Path) -> Contents:
         vertices = np.array(shape.vertices) @ transform[:3, :3].T + transform[:3, 3]
         faces = np.array(shape.faces)
     except Exception as error:  # whatever a third-party reader throws on a bad file
-        raise BadContainer(f"{path}: the glTF content can not be read ({error!r})") from error
+        raise BadContainer(f"{path}: the glTF content cannot be read ({error!r})") from error
     if len(nodes) != 1:
         raise BadContainer(f"{path}: {len(nodes)} meshes are placed in the scene; export exactly one")
     return Contents(vertices, faces)

@@ -1,4 +1,4 @@
-"""From a path to bytes and a format: nothing but regular files are opened, and content decides, not the name."""
+"""From a path to bytes and a format: only regular files are opened, and the content decides, not the name."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 
 from geodesics.errors import EmptyFile, LineTooLong, NotAFile, UnknownFormat
 
-LONGEST_LINE = 1 << 20
+LONGEST_LINE = 1 << 20  # bytes; a bound far above any line of a mesh, so that a file without line ends is refused early
 _SUPPORTED = "OFF, OBJ, PLY, STL, GLB, and TOSCA .vert/.tri"
 _OFF = re.compile(rb"\s*(#[^\r\n]*[\r\n]\s*)*(ST)?C?N?4?N?OFF\b", re.IGNORECASE)
 _OBJ = re.compile(rb"\s*(#[^\r\n]*[\r\n]\s*)*(v|vn|vt|vp|f|o|g|s|mtllib|usemtl)[ \t]")

@@ -14,6 +14,7 @@ from geodesics.errors import BadPolygon, BadToken, FormatError, IndexOutOfRange,
 from geodesics.io.text import Contents, Row, corners, count, fan, numbers, rows, whole
 from geodesics.io.truncation import refuse_cut_face
 
+# Bytes of a number, by the names of its type in a PLY header.
 _BYTES = {
     **dict.fromkeys(("char", "uchar", "int8", "uint8"), 1),
     **dict.fromkeys(("short", "ushort", "int16", "uint16", "float16"), 2),

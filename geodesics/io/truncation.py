@@ -1,4 +1,4 @@
-"""The one truncation that counts can not show: a file cut inside its very last line."""
+"""The one truncation that counts cannot reveal: a file cut inside its very last line."""
 
 from __future__ import annotations
 

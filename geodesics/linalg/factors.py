@@ -10,8 +10,9 @@ from geodesics._kernels.substitution import WIDTH, Triangle, substitute
 from geodesics.arrays import Floats
 from geodesics.linalg.dissection import nested_dissection
 
+# Rows from which matrices are put in the order of nested dissection. With the time for the order it is as fast as
+# minimum degree at 80,000 rows already (0.66 against 0.73 s), but makes 1.7 times as many entries there.
 LARGE = 200_000
-"""Rows from which nested dissection saves more time than it takes."""
 
 
 class Factors:

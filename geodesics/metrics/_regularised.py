@@ -1,4 +1,4 @@
-"""The epsilon of sec. 2, tied to the surface so that every metric built from it is scale invariant."""
+"""The epsilon of sec. 2, in proportion to 1 / area: metrics made with it are scale invariant."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ from geodesics.mesh import Mesh
 
 
 def regularised(mesh: Mesh, curvature: Floats, regularisation: float) -> Floats:
-    """sqrt(K^2 + eps^2) (n,), below (2.1), eps = regularisation * 4 pi / area: that of a sphere of the same area."""
+    """The factor sqrt(K^2 + eps^2) (n,) below (2.1), eps = regularisation * 4 pi / area: that of a sphere of the same
+    area.
+    """
     area = vertex_areas(*intrinsic_delaunay(mesh), mesh.n_vertices).sum()
     return np.hypot(curvature, regularisation * 4 * np.pi / area)

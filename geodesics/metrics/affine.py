@@ -16,10 +16,33 @@ from geodesics.topology.components import boundary_vertices
 
 
 def affine(mesh: Mesh, *, regularisation: float = 1.0, smoothing: float = EQUI_AFFINE) -> Metric:
-    """The metric |K^eq| g^eq (sec. 2), K^eq the Gaussian curvature of the equi-affine metric g^eq.
+    r"""The affine-invariant metric (sec. 2).
 
-    |K^eq| is regularised as |K| is below (2.1), with the equi-affine area. Invariant to affine maps as far as
-    `equi_affine` is to volume-preserving ones. K^eq takes four derivatives of position, so it is smoothed more than K.
+    .. math:: \tilde g_{ij} = |K^{eq}| \, g^{eq}_{ij}
+
+    with :math:`K^{eq}` the Gaussian curvature of the equi-affine metric :math:`g^{eq}`. It is invariant to affine maps
+    as far as `equi_affine` is to volume-preserving ones. :math:`K^{eq}` takes four derivatives of position, so it is
+    smoothed more than K.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The surface.
+    regularisation : float
+        eps of the regularisation below (2.1), in units of 4 pi / area: the curvature of a sphere of the same area, in
+        the equi-affine metric.
+    smoothing : float
+        As of `gaussian_curvature`, without unit.
+
+    Returns
+    -------
+    Metric
+        Its lengths have no unit.
+
+    See Also
+    --------
+    equi_affine : The metric that is rescaled.
+    scale_invariant : The same with the metric of space.
     """
     faces, n = mesh.faces, mesh.n_vertices
     l_sq = shared_lengths(faces, intrinsic.lengths_from_tensor(equi_affine_tensor(mesh)), n)

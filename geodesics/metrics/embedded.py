@@ -9,5 +9,20 @@ from geodesics.metric import Metric, conformal
 
 
 def embedded(mesh: Mesh) -> Metric:
-    """The embedded metric g_ij = <S_i, S_j> (sec. 2)."""
+    r"""The embedded metric :math:`g_{ij} = \langle S_i, S_j \rangle` (sec. 2), inherited from space.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The surface.
+
+    Returns
+    -------
+    Metric
+        Its lengths are in the unit of the mesh.
+
+    See Also
+    --------
+    scale_invariant : Divided by the local scale.
+    """
     return conformal(mesh, np.ones(mesh.n_vertices))

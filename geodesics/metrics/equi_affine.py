@@ -14,17 +14,40 @@ from geodesics.topology.edges import edge_keys
 
 
 def equi_affine(mesh: Mesh, *, regularisation: float = 0.05) -> Metric:
-    """The metric |K|^(-1/4) b_ij (sec. 2), projected to positive definite; invariant to volume-preserving affine maps.
+    r"""The equi-affine metric (sec. 2), invariant to volume-preserving affine maps.
 
-    b_ij is the second fundamental form of each face, from the normals at its corners. Raviv et al. 2011. The projection
-    takes absolute principal curvatures, at least `regularisation` / radius of a sphere of the same area, so the
-    invariance is that of convex surfaces; saddles keep it only approximately.
+    .. math:: \tilde g_{ij} = |K|^{-1/4} \, b_{ij}
+
+    with :math:`b_{ij}` the second fundamental form of each face, from the normals at its corners. It is projected to
+    positive definite by the absolute values of the principal curvatures, so the invariance is that of convex surfaces;
+    saddles keep it only approximately.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The surface.
+    regularisation : float
+        The least principal curvature, in units of 1 / radius of a sphere of the same area.
+
+    Returns
+    -------
+    Metric
+        Its squared lengths are in units of length^(3/2).
+
+    References
+    ----------
+    Raviv, Bronstein, Bronstein, Kimmel, Sochen: Affine-invariant diffusion geometry for the analysis of deformable 3D
+    shapes (2011).
+
+    See Also
+    --------
+    affine : Invariant to all affine maps.
     """
     return metric_of_lengths(mesh, intrinsic.lengths_from_tensor(equi_affine_tensor(mesh, regularisation)))
 
 
 def equi_affine_tensor(mesh: Mesh, regularisation: float = 0.05) -> Floats:
-    """|K|^(-1/4) |b_ij| per face (m, 2, 2), in barycentric coordinates; units of length^(3/2)."""
+    """The tensor |K|^(-1/4) |b_ij| per face (m, 2, 2), in barycentric coordinates; units of length^(3/2)."""
     v, faces = mesh.vertices, mesh.faces
     edge = np.stack([v[faces[:, 1]] - v[faces[:, 0]], v[faces[:, 2]] - v[faces[:, 0]]], axis=1)
     area = 0.5 * np.linalg.norm(np.cross(edge[:, 0], edge[:, 1]), axis=1)
@@ -49,8 +72,8 @@ def equi_affine_tensor(mesh: Mesh, regularisation: float = 0.05) -> Floats:
 def metric_of_lengths(mesh: Mesh, l_sq: Floats) -> Metric:
     """The metric with these squared lengths (m, 3), made equal along the edges of neighbouring faces.
 
-    Each edge takes the mean of its faces, which leaves the operator as it is and makes geodesics the same both ways;
-    faces that would lose their area so keep their own. Mass is a third of the area around.
+    Each edge takes the mean of its faces, which leaves the operator as it is and makes geodesics the same in both
+    directions; faces that would lose their area by that keep their own. The mass is a third of the area around.
     """
     shared = shared_lengths(mesh.faces, l_sq, mesh.n_vertices)
     length = np.sort(np.sqrt(shared), axis=1)
@@ -62,7 +85,7 @@ def metric_of_lengths(mesh: Mesh, l_sq: Floats) -> Metric:
 def shared_lengths(faces: Integers, l_sq: Floats, n: int) -> Floats:
     """Squared edge lengths (m, 3) on which neighbouring faces agree: from the mean length over the faces of each edge.
 
-    Angles add up round a vertex only then.
+    Only then do angles add up round a vertex.
     """
     keys = edge_keys(faces[:, [1, 2, 0]], faces[:, [2, 0, 1]], n)
     edge = np.unique(keys, return_inverse=True)[1].ravel()

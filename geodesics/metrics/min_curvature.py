@@ -8,13 +8,34 @@ from geodesics.curvature import principal_curvatures
 from geodesics.mesh import Mesh
 from geodesics.metric import Metric, conformal
 from geodesics.metrics._regularised import regularised
-from geodesics.smoothing import DEFAULT
+from geodesics.smoothing import DEFAULT_SMOOTHING
 
 
-def min_curvature(mesh: Mesh, *, regularisation: float = 1.0, smoothing: float = DEFAULT) -> Metric:
-    """The metric kappa_min^2 g of (7.1), kappa_min^2 = (sqrt(H^2 - K) - |H|)^2, regularised as |K| is below (2.1).
+def min_curvature(mesh: Mesh, *, regularisation: float = 1.0, smoothing: float = DEFAULT_SMOOTHING) -> Metric:
+    r"""The metric of the smaller principal curvature (7.1), which the paper names and leaves unexplored.
 
-    Scale invariant, but bending changes it. The paper names it and leaves it unexplored.
+    .. math:: \tilde g_{ij} = \kappa_{\min}^2 \, g_{ij}, \qquad \kappa_{\min}^2 = \big( \sqrt{H^2 - K} - |H| \big)^2
+
+    It is invariant to scale, and bending changes it. The factor is regularised as :math:`|K|` is below (2.1).
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The surface.
+    regularisation : float
+        eps of the regularisation below (2.1), in units of 4 pi / area: the curvature of a sphere of the same area.
+    smoothing : float
+        As of `gaussian_curvature`, without unit.
+
+    Returns
+    -------
+    Metric
+        Its lengths have no unit.
+
+    See Also
+    --------
+    scale_invariant : Invariant to bending as well.
+    principal_curvatures : Both principal curvatures.
     """
     first, second = principal_curvatures(mesh, smoothing)
     smaller = np.minimum(np.abs(first), np.abs(second))

@@ -6,15 +6,42 @@ from geodesics.curvature import gaussian_curvature
 from geodesics.mesh import Mesh
 from geodesics.metric import Metric, conformal
 from geodesics.metrics._regularised import regularised
-from geodesics.smoothing import DEFAULT
+from geodesics.smoothing import DEFAULT_SMOOTHING
 
 
 def scale_invariant(
-    mesh: Mesh, *, exponent: float = 1.0, regularisation: float = 1.0, smoothing: float = DEFAULT
+    mesh: Mesh, *, exponent: float = 1.0, regularisation: float = 1.0, smoothing: float = DEFAULT_SMOOTHING
 ) -> Metric:
-    """The metric |K|^a g (eq. (2.1), Theorem 2.1), regularised as (K^2 + eps^2)^(a/2) g.
+    r"""The scale-invariant metric (2.1), Theorem 2.1, and its interpolation towards the metric of space.
 
-    eps = regularisation * 4 pi / area, so the metric does not change with the size of the surface. The exponent a goes
-    from the embedded metric (0) to the paper's (1), as in Halimi and Kimmel; for `smoothing` see `gaussian_curvature`.
+    .. math:: \tilde g_{ij} = (K^2 + \epsilon^2)^{a/2} \, g_{ij} \approx |K|^a g_{ij}
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The surface.
+    exponent : float
+        :math:`a`, from 0 for the embedded metric to 1 for that of the paper (Halimi and Kimmel interpolate likewise).
+    regularisation : float
+        :math:`\epsilon` in units of :math:`4 \pi` / area, the curvature of a sphere of the same area, so that the
+        metric does not change with the size of the surface.
+    smoothing : float
+        As of `gaussian_curvature`, without unit.
+
+    Returns
+    -------
+    Metric
+        For exponent 1 its lengths have no unit.
+
+    References
+    ----------
+    Eq. (2.1) and Theorem 2.1 of Aflalo, Kimmel, Raviv: Scale invariant geometry for nonrigid shapes (2013); Halimi,
+    Kimmel: Self functional maps (2018).
+
+    See Also
+    --------
+    embedded : Exponent 0.
+    min_curvature, equi_affine, affine : Other metrics of the paper.
+    gaussian_curvature : K.
     """
     return conformal(mesh, regularised(mesh, gaussian_curvature(mesh, smoothing), regularisation) ** exponent)

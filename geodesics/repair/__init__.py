@@ -1,4 +1,4 @@
-"""A mesh made of a mesh: repaired, cut, decimated, triangulated evenly, remeshed."""
+"""A mesh made from a mesh: repaired, cut, decimated, triangulated evenly, remeshed."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """pymeshlab, which is GPL-3 and may crash, in a process of its own: this file is imported by us, and run by itself.
 
-A filter that crashes, hangs or writes nonsense is an error here, and the mesh it was given is as it was.
+A filter that crashes, hangs or writes nonsense raises an error here; the mesh it was given does not change.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import numpy as np
 
 from geodesics.arrays import Floats, Integers
 
-SECONDS = 1800  # after which a filter is given up
+SECONDS = 1800  # of wall time, after which a filter is stopped; set by hand, no measurement depends on it
 
 
 def apply_filter(name: str, vertices: Floats, faces: Integers, **options: Any) -> tuple[Floats, Integers]:
@@ -37,9 +37,7 @@ def apply_filter(name: str, vertices: Floats, faces: Integers, **options: Any) -
         if done.returncode != 0 or not made.exists():
             said = done.stderr.decode(errors="replace").strip().splitlines()
             how = f"was ended by signal {-done.returncode}" if done.returncode < 0 else "; ".join(said[-1:])
-            raise MeshError(
-                f"pymeshlab ({name}) can not process the mesh: it {how or 'stopped'}; repair the mesh first"
-            )
+            raise MeshError(f"pymeshlab ({name}) cannot process the mesh: it {how or 'stopped'}; repair the mesh first")
         with np.load(made, allow_pickle=False) as arrays:
             return arrays["vertices"], arrays["faces"].astype(np.int64)
 

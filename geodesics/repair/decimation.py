@@ -23,10 +23,34 @@ from geodesics.topology.edges import edges, proper_faces
 
 
 def decimate(mesh: Mesh, n_faces: int) -> Repaired:
-    """A coarser mesh of about `n_faces` faces by quadric edge collapses (Garland and Heckbert 1997, through libigl).
+    """A coarser mesh by quadric edge collapses.
 
-    `vertex` and `face` are the vertex and face of the old mesh from which each new one descends. Raises `NotManifold`
-    (E110) for edges of more than two faces, and `ValueError` when `n_faces` is not from 4 to the number of faces.
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh, which is repaired first (see `repair`).
+    n_faces : int
+        About how many faces to leave.
+
+    Returns
+    -------
+    Repaired
+        The coarser mesh; `vertex` and `face` say from which vertex and face of the old mesh each new one descends.
+
+    Raises
+    ------
+    NotManifold
+        E110 for edges of more than two faces.
+    ValueError
+        When `n_faces` is not from 4 to the number of faces.
+
+    References
+    ----------
+    Garland, Heckbert: Surface simplification using quadric error metrics (1997); computed by libigl.
+
+    See Also
+    --------
+    remesh : Even triangles instead.
     """
     import igl
 
@@ -58,7 +82,7 @@ def refuse_branching(mesh: Mesh) -> None:
 
 
 def decimated(mesh: Mesh, n_faces: int) -> Mesh | None:
-    """A mesh of about `n_faces` faces, by collapsing edges; None if it has few more, or that can not be done."""
+    """A mesh of about `n_faces` faces, by collapsing edges; None if there are few more, or it cannot be done."""
     import igl
 
     used, faces = np.unique(mesh.faces[proper_faces(mesh.faces)], return_inverse=True)
@@ -70,7 +94,7 @@ def decimated(mesh: Mesh, n_faces: int) -> Mesh | None:
 
 
 def _can_be_collapsed(faces: Integers) -> bool:
-    """Whether faces (m, 3) are a manifold with two sides: on others libigl takes all memory or ends the process."""
+    """Whether faces (m, 3) are a manifold with two sides: others make libigl take all memory or end the process."""
     import igl
 
     directed = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
@@ -79,7 +103,7 @@ def _can_be_collapsed(faces: Integers) -> bool:
 
 
 def clustered(mesh: Mesh, n_vertices: int) -> Mesh:
-    """The mesh with all vertices in a cell of a grid made one, whatever its defects: at most about `n_vertices`."""
+    """One vertex for all those in a cell of a grid, whatever defects the mesh has: at most about `n_vertices`."""
     used = np.unique(mesh.faces)
     v = mesh.vertices[used] - mesh.vertices[used].min(axis=0)
     v /= v.max() or 1.0
@@ -105,9 +129,9 @@ def collapse(mesh: Mesh, n_vertices: int, *, adaptive: bool = False) -> tuple[Fl
     """Vertices (about n_vertices, 3) and faces of an even triangulation near the mesh, shortest edges collapsed first.
 
     `adaptive` collapses first what changes the surface least (quadric error, Garland and Heckbert 1997): triangles stay
-    small where the surface is thin or sharply bent. Exactly `n_vertices` on a closed surface of genus 0. Afterwards
-    edges are flipped towards Delaunay and vertices moved to the middle of their neighbours; they lie near the surface,
-    not on it.
+    small where the surface is thin or sharply bent. There are exactly `n_vertices` on a closed surface of genus 0.
+    Afterwards edges are flipped towards Delaunay and vertices moved to the middle of their neighbours; they lie near
+    the surface, not on it.
     """
     import igl
 

@@ -12,10 +12,36 @@ from geodesics.repair.repairing import repair
 
 
 def remesh(mesh: Mesh, target_vertices: int, *, iterations: int = 10) -> Mesh:
-    """A new triangulation of the same surface with nearly equilateral triangles and about `target_vertices` vertices.
+    """A new triangulation of the same surface with nearly equilateral triangles.
 
-    Isotropic explicit remeshing through pymeshlab; boundaries are kept, vertices are new ones. Raises `MissingExtra`
-    when pymeshlab is not installed and `MeshError` when it fails.
+    Isotropic explicit remeshing through pymeshlab; boundaries are kept, all vertices are new.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh.
+    target_vertices : int
+        About how many vertices to make, at least 4.
+    iterations : int
+        Rounds of splitting, collapsing, flipping and smoothing.
+
+    Returns
+    -------
+    Mesh
+        The new mesh, repaired.
+
+    Raises
+    ------
+    MissingExtra
+        E602 when pymeshlab is not installed.
+    MeshError
+        When it fails.
+    ValueError
+        When fewer than 4 vertices are asked for.
+
+    See Also
+    --------
+    decimate : Coarser without new positions for what stays, and with index arrays.
     """
     if target_vertices < 4:
         raise ValueError(f"target_vertices must be at least 4, not {target_vertices}")
@@ -24,9 +50,9 @@ def remesh(mesh: Mesh, target_vertices: int, *, iterations: int = 10) -> Mesh:
     a, b, c = unit[mesh.faces.T]
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
     best, miss = (unit, mesh.faces), np.inf
-    for near in (True, False):  # that it stays near the surface can keep the mesh finer than asked: then without
+    for near in (True, False):  # to stay near the surface can keep the mesh finer than wanted; then without
         length = np.sqrt(area / target_vertices * 2 / np.sqrt(3))  # an equilateral tiling has sqrt(3)/2 l^2 a vertex
-        for _ in range(4):  # edges come out somewhat longer or shorter than asked: correct the length and start again
+        for _ in range(4):  # edges come out longer or shorter than the target: correct it and start again
             v, f = apply_filter(
                 "meshing_isotropic_explicit_remeshing",
                 unit,
@@ -47,10 +73,30 @@ def remesh(mesh: Mesh, target_vertices: int, *, iterations: int = 10) -> Mesh:
 
 
 def fill_holes(mesh: Mesh, max_edges: int = 1000) -> Mesh:
-    """The mesh with every boundary loop of at most `max_edges` edges closed by new faces, through pymeshlab.
+    """The mesh with its holes closed by new faces, through pymeshlab.
 
-    Vertices and existing faces stay as they are; the new faces come last. Raises `MissingExtra`, and `NotManifold`
-    (E110) for edges of more than two faces.
+    Vertices and existing faces stay as they are; the new faces come last.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh.
+    max_edges : int
+        Boundary loops of more edges stay open.
+
+    Returns
+    -------
+    Mesh
+        The mesh with the new faces.
+
+    Raises
+    ------
+    MissingExtra
+        E602 when pymeshlab is not installed.
+    NotManifold
+        E110 for edges of more than two faces.
+    MeshError
+        When pymeshlab fails.
     """
     refuse_branching(mesh)
     center, size = center_and_size(mesh)

@@ -1,7 +1,7 @@
-"""Making a better mesh out of one, with the way back: removing defects, decimation, remeshing, closing holes.
+"""Repairing a mesh, with index arrays between the old mesh and the new one.
 
-`remesh` and `fill_holes` run pymeshlab, which is GPL-3 and therefore an extra (`pip install gmds[repair]`), in a
-process of its own.
+`remesh` and `fill_holes` beside it run pymeshlab, which is GPL-3 and therefore an extra (`pip install gmds[repair]`),
+in a process of its own.
 """
 
 from __future__ import annotations
@@ -21,10 +21,22 @@ from geodesics.topology.orientation import orient_faces
 
 
 class Repaired(NamedTuple):
-    """A new mesh, and the way from the old one and back; `notes` say what changed.
+    """A new mesh, and how its vertices and faces correspond to those of the old one.
 
-    `vertex` (n,) and `face` (m,) index the old mesh; `new_vertex` and `new_face` say for each vertex and face of the
-    old mesh which new one it became, -1 for none. A vertex that was split became the first of its copies.
+    Parameters
+    ----------
+    mesh : Mesh
+        The new mesh, of n vertices and m faces.
+    vertex : int array of shape (n,)
+        The vertex of the old mesh from which each new one comes.
+    face : int array of shape (m,)
+        The face of the old mesh from which each new one comes.
+    notes : list of Note
+        What was changed.
+    new_vertex : int array, one entry per vertex of the old mesh
+        The new vertex that it became, the first of its copies where it was split; -1 for none.
+    new_face : int array, one entry per face of the old mesh
+        The new face that it became; -1 for none.
     """
 
     mesh: Mesh
@@ -36,13 +48,36 @@ class Repaired(NamedTuple):
 
 
 def repair(mesh: Mesh, *, weld: bool = False, cut: bool = False, largest: bool = False) -> Repaired:
-    """Drop repeated and degenerate faces and vertices on no face, orient faces consistently (outward when closed).
+    """Drop repeated and degenerate faces and vertices on no face, and orient faces consistently, outward when closed.
 
-    Vertices and faces that stay keep their order; positions do not change. `weld` first joins vertices at exactly
-    equal positions; `cut` takes apart edges of more than two faces and vertices that join several fans, copies of
-    vertices coming last (see `geodesics.repair.splitting.split`); `largest` keeps the component of the largest area
-    only.
-    Raises `MeshError` when nothing is left.
+    Vertices and faces that stay keep their order; positions do not change.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh, which is not changed.
+    weld : bool
+        Whether to join vertices at exactly equal positions, first of all.
+    cut : bool
+        Whether to take apart edges of more than two faces and vertices that join several fans of faces; copies of
+        vertices come last.
+    largest : bool
+        Whether to keep only the component of the largest area.
+
+    Returns
+    -------
+    Repaired
+        The new mesh, with notes on what was changed.
+
+    Raises
+    ------
+    MeshError
+        When nothing is left.
+
+    See Also
+    --------
+    geodesics.check.check : What there is to repair.
+    decimate, remesh, fill_holes : Changes of the triangulation.
     """
     notes: list[Note] = []
     of_vertex, faces = np.arange(mesh.n_vertices), mesh.faces
@@ -78,7 +113,20 @@ def repair(mesh: Mesh, *, weld: bool = False, cut: bool = False, largest: bool =
 
 
 def inverse_index(index: Integers, n: int) -> Integers:
-    """For each of 0 .. n - 1 where it first stands in `index`, -1 where it does not or `index` is -1: shape (n,)."""
+    """For each of 0 .. n - 1 where it first occurs in an index array.
+
+    Parameters
+    ----------
+    index : int array of shape (k,)
+        Indices below n; -1 for none.
+    n : int
+        Length of the result.
+
+    Returns
+    -------
+    int array of shape (n,)
+        Places in `index`; -1 for what does not occur.
+    """
     place = np.full(n, -1, dtype=np.int64)
     known = np.flatnonzero(index >= 0)[::-1]
     place[index[known]] = known

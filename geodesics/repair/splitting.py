@@ -1,4 +1,4 @@
-"""Cutting a mesh apart where it is not a surface: edges of more than two faces, vertices that join several fans."""
+"""Cutting a mesh apart where it is not a manifold: edges of more than two faces, vertices that join several fans."""
 
 from __future__ import annotations
 
@@ -9,16 +9,15 @@ from geodesics.mesh import Mesh
 from geodesics.topology.edges import Edges, components, corner_fans, degenerate_faces, edges
 from geodesics.topology.orientation import orientation
 
-ROUNDS = 8  # after the first few there is hardly anything left to cut; then faces at what is left stand alone
+ROUNDS = 8  # a bound: each round cuts what the one before left; in the last, faces at what is left stand alone
 
 
 def split(mesh: Mesh) -> tuple[Mesh, Integers]:
-    """A mesh whose every edge has at most two faces and every vertex one fan of them, and the old vertex of each new.
+    """A mesh of edges with at most two faces and vertices with one fan of them, and the old vertex of each new one.
 
-    Faces keep their place and order, vertices theirs; copies of vertices come last. At an edge of more than two faces
-    the two that go on most nearly flat, and do not run against each other, stay together, then the next two; the others
-    are cut loose. Faces must name
-    three different vertices (see `geodesics.repair.repair`).
+    Faces keep their place and order, and so do vertices; copies of vertices come last. At an edge of more than two
+    faces the two that continue each other most nearly flat, and do not clash in orientation, stay together, then the
+    next two; the others are separated. Faces must name three different vertices (see `geodesics.repair.repair`).
     """
     faces, vertex = mesh.faces, np.arange(mesh.n_vertices)
     for turn in range(ROUNDS):
@@ -36,7 +35,7 @@ def split(mesh: Mesh) -> tuple[Mesh, Integers]:
 
 
 def _cut(mesh: Mesh, table: Edges, left: Integers, right: Integers) -> tuple[Integers, Integers]:
-    """Faces that hang together at edges of two faces and at these pairs of sides, unless that makes them one-sided."""
+    """Faces that stay joined at edges of two faces and at these pairs of sides, unless that makes them one-sided."""
     first, second = table.pairs()
     for _ in range(2):
         fans = _fans(mesh, np.concatenate([first, left]), np.concatenate([second, right]))
@@ -73,7 +72,8 @@ def _flattest_pairs(mesh: Mesh, table: Edges) -> tuple[Integers, Integers]:
 
 
 def _bend(mesh: Mesh, ends: Integers, sides: Integers) -> Floats:
-    """How badly each two faces at an edge go on: the cosine of their angle, seen along it, and 2 more when they clash.
+    """How badly each two faces at an edge continue each other: the cosine of their angle, seen along it, plus 2 if they
+    clash.
 
     -1 is flat, 1 folded; faces clash when both run along the edge the same way. Infinite on the diagonal.
     """
@@ -89,7 +89,7 @@ def _bend(mesh: Mesh, ends: Integers, sides: Integers) -> Floats:
 
 
 def _fans(mesh: Mesh, left: Integers, right: Integers) -> Integers:
-    """Fan of each corner (m, 3) when faces hang together at these pairs of sides only."""
+    """Fan of each corner (m, 3) when faces are joined at these pairs of sides only."""
     corner = np.arange(3 * mesh.n_faces)
     end = (corner // 3) * 3 + (corner + 1) % 3
     vertex = mesh.faces.ravel()
@@ -114,7 +114,7 @@ def _separated(mesh: Mesh, fans: Integers, vertex: Integers) -> tuple[Integers, 
 
 
 def _stand_alone(mesh: Mesh, table: Edges, vertex: Integers) -> tuple[Integers, Integers]:
-    """Faces at what is still no surface, each with vertices of its own."""
+    """Faces at what is still no manifold, each with vertices of its own."""
     crowded = (table.n_faces[table.of_side] > 2).any(axis=1) | _several_fans(mesh)[mesh.faces].any(axis=1)
     faces = mesh.faces.copy()
     faces[crowded] = len(vertex) + np.arange(3 * int(crowded.sum())).reshape(-1, 3)

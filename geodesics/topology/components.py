@@ -13,7 +13,18 @@ from geodesics.topology.edges import components, edge_ends, edge_keys, proper_fa
 
 @memoized
 def boundary_vertices(mesh: Mesh) -> Bools:
-    """True where a vertex touches an edge with only one face, shape (n,)."""
+    """Vertices on an edge of only one face.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh, of n vertices.
+
+    Returns
+    -------
+    bool array of shape (n,)
+        True on the boundary.
+    """
     faces = mesh.faces[proper_faces(mesh.faces)]
     keys, count = np.unique(edge_keys(faces, np.roll(faces, -1, axis=1), mesh.n_vertices), return_counts=True)
     mask = np.zeros(mesh.n_vertices, dtype=bool)
@@ -23,7 +34,18 @@ def boundary_vertices(mesh: Mesh) -> Bools:
 
 @memoized
 def vertex_components(mesh: Mesh) -> Integers:
-    """Component label of every vertex, shape (n,), numbered from 0; -1 where a vertex is on no face."""
+    """The connected component of every vertex.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh, of n vertices.
+
+    Returns
+    -------
+    int array of shape (n,)
+        Labels from 0; -1 where a vertex is on no face.
+    """
     n, faces = mesh.n_vertices, mesh.faces
     label = components(faces[:, [0, 0]].ravel(), faces[:, [1, 2]].ravel(), n)
     used = np.zeros(n, dtype=bool)

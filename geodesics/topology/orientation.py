@@ -50,8 +50,22 @@ def orientation(mesh: Mesh) -> Orientation:
 def orient_faces(mesh: Mesh) -> Mesh:
     """The same mesh with consistently oriented faces, outward where the surface is closed.
 
-    Order and count of vertices and faces stay; a turned face keeps its first corner. Parts that have no orientation
-    (a Moebius strip) stay as they are. Neighbours are faces that share an edge of exactly two faces.
+    Neighbours are faces that share an edge of exactly two faces. Parts that have no orientation (a Moebius strip) stay
+    as they are.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh.
+
+    Returns
+    -------
+    Mesh
+        Vertices and faces in the same order; a turned face keeps its first corner.
+
+    See Also
+    --------
+    geodesics.repair.repair : Orients faces as well.
     """
     found = orientation(mesh)
     turn = found.turn ^ found.inward

@@ -13,8 +13,8 @@ from geodesics.signatures import (
     resolved_times,
     scale_invariant_heat_kernel_signature,
     scaled_heat_kernel_signature,
-    wave_kernel_signature,
 )
+from geodesics.wave_signature import wave_kernel_signature
 
 TIMES = [1e-3, 1e-2, 0.1]
 SIGNATURES = {

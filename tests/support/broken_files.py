@@ -100,7 +100,7 @@ REFUSED: list[tuple[str, str, str | bytes, str, str]] = [
     ("F17", "offset.glb", glb(lambda t: (one_view(t), t["accessors"][1].update(byteOffset=49))), "E209", "24 bytes"),
     ("F17", "view_offset.glb", glb(setting("bufferViews", 1, "byteOffset", value=49)), "E209", "accessor 1"),
     ("F17", "before.glb", glb(setting("bufferViews", 0, "byteOffset", value=-1)), "E209", "negative"),
-    ("F17", "node.glb", glb(setting("nodes", 0, "mesh", value=7)), "E209", "can not be read"),
+    ("F17", "node.glb", glb(setting("nodes", 0, "mesh", value=7)), "E209", "cannot be read"),
     ("F17", "quantity.glb", glb(setting("accessors", 0, "type", value="VEC4")), "E209", "malformed"),
     ("F17", "no_data.glb", json_alone(), "E209", "needs 24 bytes"),
     ("F17", "image.glb", glb(setting("images", value=[{"uri": "a.png"}])), "E222", "not opened"),

@@ -98,10 +98,10 @@ def _signature(
     """The arrays to write, the signature (n, columns) first, and the names of its columns."""
     import numpy as np
 
-    from geodesics import signatures
+    from geodesics import signatures, wave_kernel_signature
 
     if kind == "wks":
-        signature = signatures.wave_kernel_signature(spectrum, energies)
+        signature = wave_kernel_signature(spectrum, energies)
         return {"signature": signature}, [f"energy_{i}" for i in range(energies)]
     if kind == "si-hks":
         signature = signatures.scale_invariant_heat_kernel_signature(spectrum, times)

@@ -1,0 +1,54 @@
+"""Signatures of points from the wave equation, computed from eigenpairs."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geodesics.arrays import Floats
+from geodesics.spectrum import Spectrum
+
+
+def wave_kernel_signature(spectrum: Spectrum, n_energies: int = 100, width: float = 7.0) -> Floats:
+    r"""The wave-kernel signature of every vertex, beside the signatures of sec. 5.
+
+    .. math:: \mathrm{WKS}(s, e) = \frac{\sum_i \phi_i(s)^2 w_i(e)}{\sum_i w_i(e)}, \qquad
+              w_i(e) = \exp\Big( - \frac{(e - \log \lambda_i)^2}{2 \sigma^2} \Big)
+
+    Energies run evenly from :math:`\log \lambda_1 + 2 \sigma` to :math:`\log \lambda_{\max} - 2 \sigma`.
+
+    Parameters
+    ----------
+    spectrum : Spectrum
+        k eigenpairs of the surface in some metric.
+    n_energies : int
+        Number of energies e.
+    width : float
+        :math:`\sigma` in steps between energies.
+
+    Returns
+    -------
+    array of shape (n, n_energies)
+        Values in units of 1 / area.
+
+    Raises
+    ------
+    ValueError
+        When there are fewer than two positive eigenvalues.
+
+    References
+    ----------
+    Aubry, Schlickewei, Cremers: The wave kernel signature (2011).
+
+    See Also
+    --------
+    heat_kernel_signature : Low-pass instead of band-pass.
+    """
+    positive = spectrum.eigenvalues * spectrum.mass.sum() > 1e-6
+    if np.count_nonzero(positive) < 2:
+        raise ValueError("the wave kernel signature needs at least two positive eigenvalues")
+    log = np.log(spectrum.eigenvalues[positive])
+    sigma = width * (log[-1] - log[0]) / (n_energies - 1 + 4 * width)
+    energies = np.linspace(log[0] + 2 * sigma, log[-1] - 2 * sigma, n_energies)
+    exponent = -((energies - log[:, None]) ** 2) / (2 * max(sigma, np.finfo(float).tiny) ** 2)
+    weights = np.exp(exponent - exponent.max(axis=0))
+    return spectrum.eigenfunctions[:, positive] ** 2 @ (weights / weights.sum(axis=0))
