@@ -1,0 +1,159 @@
+"""The pictures of docs/gallery.md: each example is run, and what it computed is drawn; two minutes for all of them.
+
+python docs/gallery.py                  # all, into docs/gallery
+python docs/gallery.py 04 10            # some
+python docs/gallery.py 04 -o FOLDER     # elsewhere
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import io
+import os
+import runpy
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import geodesics
+from gmds.pictures import write_picture, write_values
+
+ROOT = Path(__file__).resolve().parents[1]
+PICTURES = ROOT / "docs" / "gallery"
+PIXELS = 300  # of the longer side of a surface
+
+Names = dict[str, Any]  # what a script has computed, by the names it gave
+
+
+def distances(path: Path, example: Names) -> None:
+    """01: distances from the nose, in two metrics, as shares of the largest."""
+    mesh, panels = example["mesh"], []
+    for metric in (geodesics.embedded, geodesics.scale_invariant):
+        field = geodesics.GeodesicDistance(metric(mesh)).field(example["start"])[0]
+        panels.append((metric.__name__, mesh, field / field.max()))
+    write_values(path, panels, pixels=PIXELS)
+
+
+def a_map(path: Path, example: Names) -> None:
+    """02: a map and its distortion."""
+    write_picture(path, example["answer"], pixels=PIXELS)
+
+
+def before_and_after(path: Path, example: Names) -> None:
+    """03: commute-time distances from one sample, before and after limbs grew and shrank, in two metrics."""
+    panels = []
+    for metric in (geodesics.embedded, geodesics.scale_invariant):
+        for when in ("before", "after"):
+            mesh = example[when]
+            sample = geodesics.SurfacePoints.at_vertices(mesh, example["samples"][:1])
+            field = example["distances"]["commute time"](metric(mesh)).field(sample)[0]
+            panels.append((f"{metric.__name__}, {when}", mesh, field / field.max()))
+    write_values(path, panels, pixels=PIXELS * 2 // 3)
+
+
+def cells(path: Path, example: Names) -> None:
+    """04: Voronoi cells, in the metric that the script looked at last."""
+    meshes = [(when, example[when], found) for when, found in zip(("before", "after"), example["cells"], strict=True)]
+    write_values(path, meshes, labels=True, title=example["metric"].__name__, pixels=PIXELS)
+
+
+def signatures(path: Path, example: Names) -> None:
+    """05: logarithms of heat kernel signatures at one time, in the metric that the script looked at last."""
+    signature = example["signatures"]["heat kernel"]
+    found = [np.log(signature(spectrum)[:, 4]) for spectrum in example["spectra"]]
+    panels = [(when, example[when], values) for when, values in zip(("before", "after"), found, strict=True)]
+    write_values(path, panels, title="heat kernel signature (log), scale_invariant", pixels=PIXELS)
+
+
+def map_and_errors(path: Path, example: Names) -> None:
+    """06: the map with landmarks, and its errors."""
+    write_picture(path, example["answer"], example["errors"], pixels=PIXELS)
+
+
+def embedded_samples(path: Path, example: Names) -> None:
+    """07: cells of the samples, and of the points of the target where they were placed."""
+    ours = example["d_source"].field(example["problem"].source_points).argmin(axis=0)
+    theirs = example["d_target"].field(example["start"]).argmin(axis=0)
+    panels = [("samples", example["source"], ours), ("their places", example["target"], theirs)]
+    write_values(path, panels, labels=True, pixels=PIXELS)
+
+
+def arc_lengths(path: Path, example: Names) -> None:
+    """08: distances by the arc length of Gaussian curvature, which neither size nor bending changes."""
+    panels = []
+    for name, mesh in example["surfaces"].items():
+        middle = geodesics.SurfacePoints.at_vertices(mesh, [60 * 30 + 30])
+        field = geodesics.GeodesicDistance(example["lengths"]["gaussian_curvature"](mesh)).field(middle)[0]
+        panels.append((name, mesh, field))
+    write_values(path, panels, pixels=PIXELS * 2 // 3)
+
+
+def labels(path: Path, example: Names) -> None:
+    """09: labels of the target, carried to the source."""
+    names = np.unique(example["parts"])
+    panels = [("target", example["target"], example["parts"]), ("source", example["source"], example["labels"])]
+    numbered = [(which, mesh, np.searchsorted(names, values)) for which, mesh, values in panels]
+    write_values(path, numbered, labels=True, pixels=PIXELS)
+
+
+def eigenfunctions(path: Path, example: Names) -> None:
+    """10: the first eigenfunction, in the metric that the script looked at last."""
+    write_values(path, example["panels"], title=example["metric"].__name__, pixels=PIXELS)
+
+
+def specimen(path: Path, _: Names) -> None:
+    """The morphometrics script has drawn its specimens itself; one of them, smaller."""
+    from PIL import Image
+
+    image = Image.open(Path("morphometrics") / "pictures" / "long_tail.png").convert("RGB")
+    image.thumbnail((2 * PIXELS, 2 * PIXELS))
+    image.quantize(128).save(path, optimize=True)
+
+
+DRAWN: dict[str, Callable[[Path, Names], None]] = {
+    "01_read_and_measure": distances,
+    "02_match_two_shapes": a_map,
+    "03_regular_and_scale_invariant": before_and_after,
+    "04_distances_and_voronoi": cells,
+    "05_signatures": signatures,
+    "06_landmarks": map_and_errors,
+    "07_gmds_by_hand": embedded_samples,
+    "08_arc_lengths": arc_lengths,
+    "09_transfer": labels,
+    "10_eigenfunctions": eigenfunctions,
+    "morphometrics/landmark_specimens": specimen,
+}
+
+
+def draw(name: str, folder: Path) -> Path:
+    """Run an example in an empty folder, and draw what it computed."""
+    script = ROOT / "examples" / f"{name}.py"
+    picture = folder.resolve() / f"{script.stem}.png"
+    with tempfile.TemporaryDirectory() as empty, contextlib.chdir(empty), contextlib.redirect_stdout(io.StringIO()):
+        sys.argv, path = [script.name, "-o", "morphometrics"], list(sys.path)
+        sys.path.insert(0, str(script.parent))
+        try:
+            DRAWN[name](picture, runpy.run_path(str(script), run_name="__main__"))
+        finally:
+            sys.path[:] = path
+    return picture
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", nargs="*", help="how the names of examples begin; all, if none is given")
+    parser.add_argument("-o", "--output", type=Path, default=PICTURES)
+    options = parser.parse_args()
+    options.output.mkdir(parents=True, exist_ok=True)
+    for name in DRAWN:
+        if not options.names or name.startswith(tuple(options.names)):
+            print(os.path.relpath(draw(name, options.output)))
+
+
+if __name__ == "__main__":
+    main()
