@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import importlib
+import pkgutil
 import re
 import runpy
 import shlex
 import shutil
 import unittest
+import warnings
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -64,7 +66,7 @@ def run_line(line: str) -> None:
     words = shlex.split(line, comments=True)
     if not words:
         return
-    assert words[0] == "gmds", f"{line!r} is no gmds command; mark the block as one that can not be run"
+    assert words[0] == "gmds", f"{line!r} is no gmds command; mark the block as one that cannot be run"
     args, sent = (words[1 : words.index(">")], words[-1]) if ">" in words else (words[1:], None)
     result = CliRunner().invoke(main, args)
     assert result.exit_code == 0, f"{line}\n{result.output}"
@@ -103,6 +105,17 @@ def test_nothing_is_left_out_unseen() -> None:
         for found in re.findall(rf"^ *({SKIP}.*)", page.read_text(encoding="utf-8"), re.MULTILINE)
     ]
     assert len(skipped) <= 9 and all(re.fullmatch(rf'{SKIP}"[^"]+" -->', line) for line in skipped), skipped
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_files_and_modules_that_a_page_names_are_there(page: Path) -> None:
+    text = FENCE.sub("", page.read_text(encoding="utf-8"))
+    paths = re.findall(r"`((?:gmds|geodesics|tests|benchmarks|docs|examples)/[\w./]+\.\w+)`", text)
+    assert not [path for path in paths if not (ROOT / path).exists()]
+    for name in re.findall(r"`((?:gmds|geodesics)(?:\.\w+)+)[`(]", text):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")  # a path that has moved
+            pkgutil.resolve_name(name)
 
 
 @pytest.mark.parametrize("package", ["geodesics", "gmds"])
