@@ -1,4 +1,4 @@
-"""Match() and self_symmetry(): pair -> proposals -> candidates -> polishing -> result."""
+"""`match` and `self_symmetry`: pair -> proposals -> candidates -> polishing -> result."""
 
 from __future__ import annotations
 

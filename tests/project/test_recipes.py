@@ -24,6 +24,7 @@ TESTS = {  # of pytest, and words that choose among them what is new
     "landmark format": ("tests/gmds/landmarks/test_landmark_formats.py", "lmk or names_and_numbers"),
     "command": ("tests/gmds/cli/test_cli_help.py", "area or section"),
     "deformation": ("tests/gmds/deformations", "twisting or cli"),
+    "energy": ("tests/gmds/registration/test_energies.py", "BoundedSizes"),
     "dataset": ("tests/gmds/benchmarking/test_faust.py", ""),
 }
 BLOCK = re.compile(r"^```(python|diff)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
