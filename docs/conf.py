@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 import numpy.typing
+from sphinx.domains.python import PyObject
 
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parent), str(HERE)]
@@ -88,4 +89,7 @@ def complete(_app: Any, docname: str, source: list[str]) -> None:
 def setup(app: Any) -> None:
     app.connect("autodoc-process-docstring", docstrings.plain, priority=400)  # before napoleon, which has 500
     mathml.setup(app)
+    for field in PyObject.doc_field_types:
+        if field.name == "variable":
+            field.label = "Attributes"  # as numpydoc heads them
     app.connect("source-read", complete)

@@ -15,6 +15,8 @@ from places import ROOT
 
 from geodesics import write_mesh
 
+pytest.importorskip("ruff")
+pytestmark = pytest.mark.skipif(not (ROOT / "gmds").is_dir(), reason="the packages do not lie beside the tests")
 RECIPE = re.compile(r"^## Adding an? ([^\n]+)\n(.*?)(?=^## )", re.MULTILINE | re.DOTALL)
 RECIPES = dict(RECIPE.findall((ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")))
 TESTS = {  # of pytest, and words that choose among them what is new
