@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from gmds.evaluation import error_curve as error_curve
     from gmds.evaluation import geodesic_error as geodesic_error
     from gmds.evaluation import summary as summary
-    from gmds.landmarks.checking import SoftLandmarks as SoftLandmarks
+    from gmds.landmarks.soft import SoftLandmarks as SoftLandmarks
     from gmds.maps.point_map import Candidate as Candidate
     from gmds.maps.point_map import MatchStatus as MatchStatus
     from gmds.matching.pipeline import match as match
@@ -67,7 +67,7 @@ _NAMES = {
         "geodesic_error",
         "summary",
     ),
-    "landmarks.checking": ("SoftLandmarks",),
+    "landmarks.soft": ("SoftLandmarks",),
     "maps.point_map": (
         "Candidate",
         "MatchStatus",

@@ -17,6 +17,7 @@ from gmds.errors import MapArray, MapError
 from gmds.maps.images import FAR, image, preimage
 from gmds.maps.npz_format import read_map, write_map
 from gmds.maps.point_map import Candidate, MatchStatus
+from gmds.maps.rows import check_rows
 from gmds.maps.values import carry
 from gmds.pictures.panels import write_picture
 from gmds.report.notebook import mimebundle
@@ -27,12 +28,32 @@ from gmds.report.page import write_report
 class Correspondence:
     """A map from every vertex of `source` (n of them) to a point of `target`.
 
-    `points`: n SurfacePoints on the target. `valid` (n,) bool: False where the vertex has no counterpart; the point
-    of such a row is finite and means nothing. `distortion` (n,) float64 >= 0: how badly distances from the vertex are
-    preserved, over the mean distance; small is trustworthy. `candidates`: other maps, best first. `meta`: parameters,
-    seed, notes (`gmds.matching.notes`), versions and timings, as JSON can carry them.
+    Attributes
+    ----------
+    source, target : Mesh
+        The surfaces.
+    points : SurfacePoints
+        n points of the target.
+    valid : bool array of shape (n,)
+        False where the vertex has no counterpart; the point of such a row is finite and means nothing.
+    distortion : float64 array of shape (n,)
+        How badly lengths around the vertex are preserved, relative and not negative: small is trustworthy.
+    status : MatchStatus
+        How far the whole can be trusted.
+    candidates : tuple of Candidate
+        Other maps, best first.
+    meta : mapping
+        Parameters, seed, notes (`gmds.matching.notes`), versions and timings, as JSON can carry them.
 
-    Raises `MapError` when a row is missing, lies on another mesh than `target`, or its distortion is not finite.
+    Raises
+    ------
+    MapError
+        When a row is missing, lies on another mesh than `target`, or its distortion is not finite.
+
+    See Also
+    --------
+    match : Makes one.
+    geodesic_error : Judges one.
     """
 
     source: Mesh
@@ -45,19 +66,7 @@ class Correspondence:
     meta: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        n = self.source.n_vertices
-        if self.points.mesh is not self.target:
-            raise MapError("the points lie on another mesh than the target; make them with SurfacePoints(target, ...)")
-        for name, rows in (
-            ("points", len(self.points)),
-            ("valid", len(self.valid)),
-            ("distortion", len(self.distortion)),
-        ):
-            if rows != n:
-                raise MapError(f"{name} has {rows} rows; the source has {n} vertices and a map one row for each")
-        bad = np.flatnonzero(~np.isfinite(self.distortion))
-        if len(bad):
-            raise MapError(f"the distortion of row {bad[0]} is not finite ({len(bad)} such rows)")
+        check_rows(self)
         for name, dtype in (("valid", np.bool_), ("distortion", np.float64)):
             array = np.array(getattr(self, name), dtype=dtype).reshape(-1)
             array.setflags(write=False)
@@ -66,9 +75,16 @@ class Correspondence:
 
     @classmethod
     def from_points(cls, source: Mesh, points: SurfacePoints, **others: Any) -> Correspondence:
-        """The map that sends vertex i of `source` to `points[i]`; everything else is optional.
+        """The map that sends vertex i of `source` to `points[i]`.
 
-        `valid` is True except at vertices on no face, `distortion` is zero.
+        Parameters
+        ----------
+        source : Mesh
+            Of n vertices.
+        points : SurfacePoints
+            n points of the target.
+        **others
+            Any other attribute. `valid` is True except at vertices on no face, `distortion` is zero, unless given.
         """
         others.setdefault("valid", np.bincount(source.faces.ravel(), minlength=source.n_vertices) > 0)
         others.setdefault("distortion", np.zeros(source.n_vertices))
@@ -87,16 +103,28 @@ class Correspondence:
         return mimebundle(self)
 
     def vertex_map(self) -> Integers:
-        """The target vertex nearest to each point, among the corners of its face: (n,) int64."""
+        """The target vertex nearest to each point, among the corners of its face: int64 array of shape (n,)."""
         return self.points.nearest_vertices()
 
     def transfer(self, values: ArrayLike, *, labels: bool | None = None, fill: Any = None) -> NDArray[Any]:
-        """Values per target vertex, (n_target,) or (n_target, c), as values per source vertex.
+        """Values per target vertex as values per source vertex, (n,) or (n, c).
 
-        Numbers and colours are interpolated on the triangle; labels take the value with the largest weight and keep
-        their dtype. By default integers, booleans and strings are labels, except uint8 with 3 or 4 columns, which are
-        colours. `fill` goes into the rows that are not `valid`; without it they hold whatever their point says.
-        Raises `MapError` when there is not one value per target vertex.
+        Numbers and colours are interpolated on the triangle; labels take the value with the largest weight.
+
+        Parameters
+        ----------
+        values : array_like of shape (n_target,) or (n_target, c)
+            Of any dtype.
+        labels : bool, optional
+            Whether they are labels, which keep their dtype. Unless given, integers, booleans and strings are, except
+            uint8 with 3 or 4 columns, which are colours.
+        fill : optional
+            What goes into the rows that are not `valid`; without it they hold whatever their point says.
+
+        Raises
+        ------
+        MapError
+            When there is not one value per target vertex.
         """
         moved = carry(self.points, np.asarray(values), labels)
         if fill is not None:
@@ -104,15 +132,14 @@ class Correspondence:
         return moved
 
     def inverse(self) -> Correspondence:
-        """The map from target to source.
+        """The map from target to source, without candidates.
 
         The images of the source triangles are triangles lying along the target. Each target vertex takes the nearest
         point (in space) of the nearest of them, and that point's barycentric weights in the source triangle; a vertex
         map that is one to one is therefore inverted exactly. Triangles with a corner that is not valid, or torn apart
         by the map (an edge stretched more than 5 times and longer than 0.1 sqrt(area)), are left out. A vertex is not
         `valid` when the nearest image is further than 0.05 sqrt(target area), or when it is on no face. Distortion is
-        that of the source point plus the distance to the image over sqrt(target area); candidates are dropped.
-        """
+        that of the source point plus the distance to the image over sqrt(target area)."""
         source, target = self.source, self.target
         points, gap = preimage(self, np.arange(target.n_vertices))
         valid = (gap <= FAR) & (np.bincount(target.faces.ravel(), minlength=target.n_vertices) > 0)
@@ -123,7 +150,7 @@ class Correspondence:
         """First this map, then `other`, through which the points of this one are sent (see `gmds.maps.images.image`).
 
         A row is `valid` when this map is there and `other` is at every corner with weight; distortions add. Raises
-        `MapError` when `other` does not start on the mesh where this map ends.
+        `MapError` when `other` does not start on the very mesh where this map ends.
         """
         if self.target is not other.source:
             raise MapError("the second map must start on the very mesh (the same object) on which the first one ends")
@@ -142,7 +169,7 @@ class Correspondence:
         return write_picture(path, self, errors, **options)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write map.npz, version 1 (see `gmds.maps.npz_format`), atomically; candidates are not kept."""
+        """Write map.npz, version 1 (see `gmds.maps.npz_format`), atomically, without candidates. Raises `OSError`."""
         arrays = {
             "face": self.points.face,
             "barycentric": self.points.barycentric,
@@ -156,8 +183,8 @@ class Correspondence:
     def load(cls, path: str | os.PathLike[str], source: Mesh, target: Mesh) -> Correspondence:
         """Read a map.npz that belongs to these two meshes.
 
-        Raises `FormatError`: E210 members, E211 arrays, E212 other meshes, E213 version, E220 pickled.
-        """
+        Raises `OSError`, or `FormatError` with code E210 (members), E211 (arrays), E212 (other meshes), E213 (version)
+        or E220 (pickled)."""
         arrays, meta = read_map(path, source, target)
         status = MatchStatus.__members__.get(str(meta.pop("status", "UNRATED")), MatchStatus.UNRATED)
         meta = {key: value for key, value in meta.items() if key not in ("format", "version", "source", "target")}

@@ -19,7 +19,7 @@ def versions() -> dict[str, str]:
 
 
 def method_in_words(distance: Callable[..., Any] | None, loss: Any) -> dict[str, str | None]:
-    """The distance and the loss of a match, as its parameters tell them; None for the distance that is the default."""
+    """The distance and the loss of a match, as its parameters name them; None for the distance that is the default."""
     return {"distance": None if distance is None else in_words(distance), "loss": in_words(loss)}
 
 

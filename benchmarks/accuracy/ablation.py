@@ -20,7 +20,7 @@ import geodesics
 import gmds.initialization
 import gmds.matching.candidates
 import gmds.matching.pair
-import gmds.matching.pipeline
+import gmds.matching.steps
 import gmds.surface.measured
 from benchmarks.accuracy.halves import DEVELOPMENT
 from benchmarks.accuracy.runs import Job, Rows, arguments, chosen_pairs, code_version, read_rows, run
@@ -118,9 +118,9 @@ INSIDE: dict[str, Matcher] = {
     ),
     "no embedding by solve": changed({gmds.matching.candidates: {"ITERATIONS": 0}}),
     "no registration": changed(
-        {gmds.matching.candidates: {"registered": left_as_it_is}, gmds.matching.pipeline: {"polished": same}}
+        {gmds.matching.candidates: {"registered": left_as_it_is}, gmds.matching.steps: {"polished": same}}
     ),
-    "registered once": changed({gmds.matching.pipeline: {"polished": same}}),
+    "registered once": changed({gmds.matching.steps: {"polished": same}}),
     "no eigenfunctions in the registration": changed({gmds.matching.polishing: {"SPECTRAL_GAIN": 1.0}}),
     "no way back": changed({gmds.matching.polishing: {"RETURNS": 0}}),
 }

@@ -33,7 +33,7 @@ def given_landmarks(paths: Sequence[Path], space: Any, tolerance: float | None =
     With a tolerance they are soft, but for those whose file says otherwise. Raises `click.UsageError` for more than two
     files.
     """
-    from gmds.landmarks.checking import SoftLandmarks
+    from gmds.landmarks.soft import SoftLandmarks
 
     found = _given(paths, space)
     if tolerance is None or found is None or isinstance(found, SoftLandmarks):

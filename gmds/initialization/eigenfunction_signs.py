@@ -17,7 +17,26 @@ MOST_ORDERS = 4  # a bound on the time
 def eigenfunction_signs(pair: SampledPair) -> list[Integers]:
     """One sample map for every choice of signs of the first five eigenfunctions, and of order where they are close.
 
-    The functional map of an isometry is a signed permutation where eigenvalues are simple (Mateus et al. 2008).
+    The functional map of an isometry is a signed permutation where eigenvalues are simple.
+
+    Parameters
+    ----------
+    pair : SampledPair
+        Both surfaces in one metric, p samples of the source and q of the target.
+
+    Returns
+    -------
+    list of int64 arrays of shape (p,)
+        Indices into the samples of the target: 32 for each of at most 4 orders; none where there are fewer than five
+        eigenfunctions.
+
+    References
+    ----------
+    Mateus, Horaud, Knossow, Cuzzolin, Boyer: Articulated shape matching using Laplacian eigenfunctions (2008).
+
+    See Also
+    --------
+    extremities : The other start that needs nothing but the two surfaces.
     """
     count = min(FUNCTIONS, pair.source_rows.shape[1] - 1, pair.target_rows.shape[1] - 1)
     if count < FUNCTIONS:

@@ -19,7 +19,24 @@ LEAST_GAP = 0.3  # between extremities, of the largest distance from the centre;
 
 
 def extremities(pair: SampledPair) -> list[Integers]:
-    """Sample maps by trilateration from assigned extremities, for the 32 assignments that distort distances least."""
+    """Sample maps by trilateration from assigned extremities, for the 32 assignments that distort distances least.
+
+    Extremities are vertices farther from all others than those around them: heads, hands, tails.
+
+    Parameters
+    ----------
+    pair : SampledPair
+        Both surfaces in one metric, p samples of the source and q of the target.
+
+    Returns
+    -------
+    list of int64 arrays of shape (p,)
+        Indices into the samples of the target; none where a surface has fewer than three extremities.
+
+    See Also
+    --------
+    eigenfunction_signs : The other start that needs nothing but the two surfaces.
+    """
     ours, theirs = surface_extremities(pair.source), surface_extremities(pair.target)
     if min(len(ours), len(theirs)) < 3:
         return []

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from geodesics.moved_paths import names_moved
-from gmds.landmarks.checking import SoftLandmarks, check_landmarks
+from gmds.landmarks.checking import check_landmarks
+from gmds.landmarks.soft import SoftLandmarks
 from gmds.moved_paths import MOVED
 
 __all__ = ["SoftLandmarks", "check_landmarks"]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,33 +12,40 @@ from geodesics.arrays import Floats
 from geodesics.errors import Note
 from gmds.errors import LandmarkError
 from gmds.landmarks.placed import PlacedLandmarks
+from gmds.landmarks.soft import SoftLandmarks
 
 FARTHEST_LANDMARK = 0.05  # of the diagonal of the bounding box, off the surface: a convention, beyond is a mistake
-TOLERANCE = 0.05  # of soft landmarks, in root areas of the target: a convention
 
 
 def check_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> tuple[SurfacePoints, SurfacePoints]:
-    """Corresponding points of both surfaces from what a user gives; raises `LandmarkError` (E300-E305).
+    """Corresponding points of both surfaces from what a user gives.
 
-    `landmarks` is an array (k, 2) of vertex index pairs, or a pair (on source, on target) whose halves are vertex
-    indices (k,), positions in space (k, 3) that are moved to the closest surface point, rows (k, 4) of a face and three
-    barycentric weights, or `SurfacePoints`; all of them may stand in `SoftLandmarks`. Two nested lists of two indices
-    each are read as two index pairs.
+    Parameters
+    ----------
+    landmarks : array_like, pair or SoftLandmarks
+        An array (k, 2) of vertex index pairs, or a pair (on source, on target) whose halves are vertex indices (k,),
+        positions in space (k, 3) that are moved to the closest surface point, rows (k, 4) of a face and three
+        barycentric weights, or `SurfacePoints`. Two nested lists of two indices each are read as two index pairs.
+    source, target : Mesh
+        The surfaces.
+
+    Returns
+    -------
+    on_source, on_target : SurfacePoints
+        k points each.
+
+    Raises
+    ------
+    LandmarkError
+        For another form (E300), vertices or faces that do not exist (E301), points given twice (E302), unequal counts
+        (E303), vertices on no face (E304), and positions more than 5 % of the diagonal off the surface (E305).
+
+    See Also
+    --------
+    match : Takes landmarks in all these forms.
     """
     placed = place_landmarks(landmarks, source, target)
     return placed.on_source, placed.on_target
-
-
-@dataclass(frozen=True, eq=False)
-class SoftLandmarks:
-    """Landmarks that pull rather than pin, in any form that `check_landmarks` takes.
-
-    `tolerance`, a number or k of them: to within how far each is right, in square roots of the area of the target; 0
-    makes it a hard one. A landmark that is missed by many times its tolerance pulls ever less.
-    """
-
-    landmarks: Any
-    tolerance: ArrayLike = TOLERANCE
 
 
 def place_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> PlacedLandmarks:

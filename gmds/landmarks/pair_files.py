@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from gmds.landmarks.checking import SoftLandmarks
 from gmds.landmarks.files import BadLandmarkFile
 from gmds.landmarks.files.reading import NUMBER, WHOLE, landmark_text
+from gmds.landmarks.soft import SoftLandmarks
 
 WIDTHS = (2, 6, 8)  # entries of both points
 FORMS = "two vertex numbers, six coordinates, or a face and three weights twice, and perhaps a tolerance"
@@ -51,7 +51,7 @@ def _of_map(path: Path) -> Any:
         sides = [np.column_stack([made[side]["face"], made[side]["barycentric"]]) for side in ("source", "target")]
         return SoftLandmarks((sides[0], sides[1]), made["tolerance"])
     except (KeyError, TypeError, ValueError) as error:
-        raise BadLandmarkFile(f"{path}: the landmarks it was made with can not be read ({error})") from error
+        raise BadLandmarkFile(f"{path}: the landmarks it was made with cannot be read ({error})") from error
 
 
 def _words(line: str) -> list[str]:

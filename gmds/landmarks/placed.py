@@ -1,4 +1,4 @@
-"""Landmarks once they are points of both surfaces: what matching is told, what the map keeps, what its file says."""
+"""Landmarks once they are points of both surfaces: what matching takes, what the map keeps, what its file holds."""
 
 from __future__ import annotations
 
@@ -40,23 +40,23 @@ class PlacedLandmarks:
         }
         return {**points, "tolerance": self.tolerance.tolist()}
 
-    def applied(self, found: Correspondence) -> tuple[Correspondence, list[Note]]:
+    def applied(self, answer: Correspondence) -> tuple[Correspondence, list[Note]]:
         """The map with vertices that are hard landmarks sent exactly where they belong; what is inside a face stays.
 
-        Its parameters tell of the landmarks. The notes name soft ones that the map misses by far (W302).
+        Its parameters hold the landmarks. The notes name soft ones that the map misses by far (W302).
         """
         hard = np.flatnonzero((self.tolerance <= 0) & (self.on_source.barycentric.max(axis=1) >= 1 - 1e-9))
-        place = np.zeros(len(found.points), dtype=np.int64)
+        place = np.zeros(len(answer.points), dtype=np.int64)
         fixed = np.zeros(len(place), dtype=bool)
         rows = self.on_source[hard].nearest_vertices()
         place[rows], fixed[rows] = hard, True
-        points = mixed(fixed, self.on_target[place], found.points)
-        meta = {**found.meta, "parameters": {**found.meta.get("parameters", {}), "landmarks": self.as_parameters()}}
-        return replace(found, points=points, valid=found.valid | fixed, meta=meta), self._doubts(found)
+        points = mixed(fixed, self.on_target[place], answer.points)
+        meta = {**answer.meta, "parameters": {**answer.meta.get("parameters", {}), "landmarks": self.as_parameters()}}
+        return replace(answer, points=points, valid=answer.valid | fixed, meta=meta), self._doubts(answer)
 
-    def _doubts(self, found: Correspondence) -> list[Note]:
-        sent = self.on_source.interpolate(found.points.positions)
-        missed = np.linalg.norm(sent - self.on_target.positions, axis=1) / np.sqrt(found.target.area)
+    def _doubts(self, answer: Correspondence) -> list[Note]:
+        sent = self.on_source.interpolate(answer.points.positions)
+        missed = np.linalg.norm(sent - self.on_target.positions, axis=1) / np.sqrt(answer.target.area)
         wrong = np.flatnonzero((self.tolerance > 0) & (missed > DOUBTFUL * self.tolerance))
         if not len(wrong):
             return []

@@ -18,9 +18,22 @@ from gmds.maps.point_map import PointMap
 class CarriedLandmarks:
     """Landmarks of the source of a map on its target, k each.
 
-    `on_source`, `on_target`: the points. `moved` (k,): how far the given positions were from the surface of the source,
-    in its units; 0 for vertices. `valid` (k,): False where the source has no counterpart on the target; such a point
-    means nothing. `distortion` (k,): that of the map there.
+    Attributes
+    ----------
+    names : tuple of str
+        k of them.
+    on_source, on_target : SurfacePoints
+        The k points.
+    moved : float64 array of shape (k,)
+        How far the given positions were from the surface of the source, in its units; 0 for vertices.
+    valid : bool array of shape (k,)
+        False where the source has no counterpart on the target; such a point means nothing.
+    distortion : float64 array of shape (k,)
+        That of the map there.
+
+    See Also
+    --------
+    carry_landmarks : Makes them.
     """
 
     names: tuple[str, ...]
@@ -40,16 +53,46 @@ class CarriedLandmarks:
         return np.where(self.valid, np.clip(1 - self.distortion, 0, 1), 0.0)
 
     def landmarks(self, *, vertices: bool = False) -> Landmarks:
-        """The landmarks on the target: positions, or the nearest corner of their face."""
+        """The landmarks on the target.
+
+        Parameters
+        ----------
+        vertices : bool
+            Whether as the nearest corner of their face, rather than as positions.
+
+        Returns
+        -------
+        Landmarks
+            Ready for `write_landmarks`.
+        """
         at = self.on_target.nearest_vertices() if vertices else self.on_target.positions
         return Landmarks(self.names, at)
 
 
 def carry_landmarks(answer: PointMap, landmarks: Landmarks) -> CarriedLandmarks:
-    """The landmarks of the source of a map on its target: put on the source, then sent along (see `algebra.image`).
+    """The landmarks of the source of a map on its target: put on the source, then sent along.
 
-    Raises `LandmarkError` for vertices that do not exist, points given twice, or positions more than 5 % of the
-    diagonal off the surface.
+    Parameters
+    ----------
+    answer : Correspondence
+        The map.
+    landmarks : Landmarks
+        k vertices, positions, or points of faces of its source.
+
+    Returns
+    -------
+    CarriedLandmarks
+        With how far each can be trusted.
+
+    Raises
+    ------
+    LandmarkError
+        For vertices that do not exist (E301), points given twice (E302), vertices on no face (E304), or positions more
+        than 5 % of the diagonal off the surface (E305).
+
+    See Also
+    --------
+    gmds.landmarks.files.read_landmarks, gmds.landmarks.files.write_landmarks : From and to files.
     """
     on_source = place_on(landmarks.at, answer.source, "source")
     moved = np.zeros(len(landmarks))

@@ -31,13 +31,29 @@ COLUMNS = (
 
 
 class UnknownExport(FormatError):
-    """A file ending that maps can not be exported to."""
+    """A file ending that maps cannot be exported to."""
 
     code = "E216"
 
 
 def check_export(path: str | os.PathLike[str]) -> str:
-    """The ending of the file, one of `ENDINGS`; raises `UnknownExport` for any other."""
+    """The ending of the file, one of `ENDINGS`.
+
+    Parameters
+    ----------
+    path : path
+        Where a map is to be exported to.
+
+    Returns
+    -------
+    str
+        In small letters.
+
+    Raises
+    ------
+    UnknownExport
+        For any other ending (E216).
+    """
     ending = Path(path).suffix.lower()
     if ending not in ENDINGS:
         raise UnknownExport(f"{path}: maps are exported to files that end in {' or '.join(ENDINGS)}")
@@ -45,7 +61,7 @@ def check_export(path: str | os.PathLike[str]) -> str:
 
 
 def export_map(answer: PointMap, path: str | os.PathLike[str]) -> None:
-    """Write a map for other programs, atomically; the ending of the file says for which. Raises `UnknownExport`.
+    """Write a map for other programs, atomically; the ending of the file says for which.
 
     .csv: a header and a row for every source vertex, indices from 0: the source vertex, the nearest target vertex, the
     target face and the barycentric weights of the point on it, its position, whether it is valid (1 or 0), and the
@@ -54,6 +70,24 @@ def export_map(answer: PointMap, path: str | os.PathLike[str]) -> None:
     .mat (MATLAB 5, readable by Octave and scipy): `vertex` (n, 1), `face` (n, 1), `barycentric` (n, 3), `position`
     (n, 3), `valid` (n, 1) logical, `distortion` (n, 1), `status`, and the counts `n_source`, `n_target`. Indices are
     doubles from 1, as MATLAB has them: `target_vertices(vertex(i), :)` is where source vertex i goes.
+
+    Parameters
+    ----------
+    answer : Correspondence
+        The map, or anything with its attributes.
+    path : path
+        Ends in .csv or .mat.
+
+    Raises
+    ------
+    UnknownExport
+        For any other ending (E216).
+    OSError
+        When it cannot be written.
+
+    See Also
+    --------
+    Correspondence.save : A map.npz, which can be read again.
     """
     ending = check_export(path)
     content = _csv(answer) if ending == ".csv" else _mat(answer)

@@ -54,7 +54,7 @@ def read_map(path: str | os.PathLike[str], source: Mesh, target: Mesh) -> tuple[
     """The arrays and the meta data of a map between these two meshes.
 
     Raises `FormatError` with code E210 (members), E211 (arrays), E212 (other meshes), E213 (version) or
-    E220 (pickled); `OSError` when the file can not be opened.
+    E220 (pickled); `OSError` when the file cannot be opened.
     """
     return _opened(Path(path), lambda archive: _read_members(Path(path), archive, source, target))
 
@@ -89,7 +89,7 @@ def _plain(value: Any) -> Any:
     """Numpy numbers and arrays as plain ones, for JSON."""
     if isinstance(value, np.generic | np.ndarray):
         return value.tolist()
-    raise TypeError(f"meta holds {value!r}, which JSON can not carry; use numbers, strings, lists and dicts")
+    raise TypeError(f"meta holds {value!r}, which JSON cannot carry; use numbers, strings, lists and dicts")
 
 
 def _check_names(path: Path, archive: zipfile.ZipFile) -> None:
@@ -108,16 +108,16 @@ def _member(path: Path, archive: zipfile.ZipFile, name: str, shape: tuple[int, .
     """One array, its header checked before any of its bytes are taken: a lying header costs nothing."""
     with archive.open(f"{name}.npy") as stream:
         try:
-            found, _, dtype = read_header(stream)
+            stored, _, dtype = read_header(stream)
         except PickledArray as error:
             raise PickledMember(f"{path}: member {name} holds {error}") from error
         except ValueError as error:
             raise MapArray(f"{path}: member {name} has {error}") from error
     limit = (MAX_META_BYTES,) if shape is None else shape
-    fits = found == limit or (shape is None and len(found) == 1 and found[0] <= MAX_META_BYTES)
+    fits = stored == limit or (shape is None and len(stored) == 1 and stored[0] <= MAX_META_BYTES)
     if dtype != np.dtype(DTYPES[name]) or not fits:
         wanted = "(at most 16 MB,)" if shape is None else shape
-        raise MapArray(f"{path}: member {name} is {dtype} {found}, expected {np.dtype(DTYPES[name])} {wanted}")
+        raise MapArray(f"{path}: member {name} is {dtype} {stored}, expected {np.dtype(DTYPES[name])} {wanted}")
     try:
         return read_member(archive, f"{name}.npy")
     except ValueError as error:

@@ -13,7 +13,12 @@ from geodesics.points import SurfacePoints
 
 
 class MatchStatus(Enum):
-    """How far a map can be trusted, best first; the value is a sentence for people."""
+    """How far a map can be trusted, best first; the value is a sentence for people.
+
+    See Also
+    --------
+    Status : How a solver ended.
+    """
 
     GOOD = "The map preserves distances well and no other map does nearly as well."
     AMBIGUOUS = "Another map, for instance the mirrored one, does nearly as well; see `candidates`."
@@ -30,8 +35,18 @@ class MatchStatus(Enum):
 class Candidate:
     """Another map worth looking at, for instance the mirrored one.
 
-    `points` has one row per source vertex; `stress`: mean |d_S - d_Q| between samples over mean d_S (small is good);
-    `orientation` in [-1, 1]: the share of the image's area whose triangles keep their orientation, minus the rest.
+    Attributes
+    ----------
+    points : SurfacePoints
+        A point of the target for every source vertex.
+    stress : float
+        Mean |d_S - d_Q| between samples over mean d_S: small is good.
+    orientation : float
+        From -1 to 1: the share of the image's area whose triangles keep their orientation, minus the rest.
+
+    See Also
+    --------
+    Correspondence : Has them in `candidates`, best first.
     """
 
     points: SurfacePoints

@@ -13,11 +13,34 @@ from gmds.errors import MapError
 
 
 def carry(points: SurfacePoints, values: NDArray[Any], labels: bool | None = None) -> NDArray[Any]:
-    """Values per vertex of the points' mesh, (n,) or (n, ...), as values per point, (p,) or (p, ...).
+    """Values per vertex of the points' mesh as values per point.
 
-    `labels` says whether values are names (majority wins, dtype kept) or quantities (linear interpolation: floats
-    keep their precision, uint8 colours are rounded, other integers become float64). None decides by dtype:
-    floats, complex numbers and uint8 with 3 or 4 columns are quantities. Raises `MapError`.
+    Parameters
+    ----------
+    points : SurfacePoints
+        p points of a mesh with n vertices.
+    values : array of shape (n,) or (n, ...)
+        Of any dtype.
+    labels : bool, optional
+        Whether values are names (the largest weight wins, the dtype stays) or quantities (linear interpolation: floats
+        keep their precision, uint8 colours are rounded, other integers become float64). Unless given the dtype decides:
+        floats, complex numbers and uint8 with 3 or 4 columns are quantities.
+
+    Returns
+    -------
+    array of shape (p,) or (p, ...)
+        The values at the points.
+
+    Raises
+    ------
+    MapError
+        When there is not one row for each vertex.
+
+    See Also
+    --------
+    Correspondence.transfer : The same along a map.
+    carry_weights : Weights that sum to 1.
+    gmds.maps.vectors.carry_vectors : Directions in space.
     """
     if values.ndim == 0 or len(values) != points.mesh.n_vertices:
         rows = "a single value" if values.ndim == 0 else f"{len(values)} rows"
@@ -31,9 +54,28 @@ def carry(points: SurfacePoints, values: NDArray[Any], labels: bool | None = Non
 
 
 def carry_weights(points: SurfacePoints, weights: ArrayLike) -> Floats:
-    """Weights per vertex (n, k), as of bones in skinning, as weights (p, k) per point: interpolated, rows sum to 1.
+    """Weights per vertex, as of bones in skinning, as weights per point: interpolated, rows sum to 1.
 
-    Raises `MapError` naming the vertex whose weights are negative, not finite, or all 0.
+    Parameters
+    ----------
+    points : SurfacePoints
+        p points of a mesh with n vertices.
+    weights : array_like of shape (n, k)
+        Not negative, a column for each bone.
+
+    Returns
+    -------
+    float64 array of shape (p, k)
+        Each row sums to 1.
+
+    Raises
+    ------
+    MapError
+        Naming the vertex whose weights are negative, not finite, or all 0; for another shape.
+
+    See Also
+    --------
+    carry : Any other values.
     """
     given = np.asarray(weights, dtype=np.float64)
     if given.ndim != 2:
@@ -46,7 +88,18 @@ def carry_weights(points: SurfacePoints, weights: ArrayLike) -> Floats:
 
 
 def is_label(values: NDArray[Any]) -> bool:
-    """True for integers, booleans, strings and other names; False for floats, complex and uint8 colours."""
+    """Whether values are names rather than quantities.
+
+    Parameters
+    ----------
+    values : array
+        Of any dtype and shape.
+
+    Returns
+    -------
+    bool
+        True for integers, booleans, strings and other names; False for floats, complex numbers and uint8 colours.
+    """
     colour = values.dtype == np.uint8 and values.ndim == 2 and values.shape[1] in (3, 4)
     return values.dtype.kind not in "fc" and not colour
 

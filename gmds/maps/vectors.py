@@ -12,10 +12,32 @@ from gmds.maps.point_map import PointMap
 
 
 def carry_vectors(answer: PointMap, vectors: ArrayLike) -> Floats:
-    """Vectors in space (n_target, 3) on the vertices of the target as vectors (n_source, 3) on those of the source.
+    """Vectors in space on the vertices of the target as vectors on those of the source.
 
     Each is interpolated where the vertex goes, then turned back by `turns`: lengths stay, what is tangent to the target
-    becomes tangent to the source but for the error of the normals. Raises `MapError` for another shape.
+    becomes tangent to the source but for the error of the normals.
+
+    Parameters
+    ----------
+    answer : Correspondence
+        The map, of n_source vertices.
+    vectors : array_like of shape (n_target, 3)
+        In the frame of the target's file.
+
+    Returns
+    -------
+    float64 array of shape (n_source, 3)
+        In the frame of the source's file.
+
+    Raises
+    ------
+    MapError
+        For another shape.
+
+    See Also
+    --------
+    turns : The matrices.
+    gmds.maps.values.carry : Values that do not turn.
     """
     given = np.asarray(vectors, dtype=np.float64)
     if given.shape != (answer.target.n_vertices, 3):
@@ -24,11 +46,24 @@ def carry_vectors(answer: PointMap, vectors: ArrayLike) -> Floats:
 
 
 def turns(answer: PointMap) -> Floats:
-    """Orthogonal matrices (n_source, 3, 3) that turn the surface around each source vertex as the map does.
+    """Orthogonal matrices that turn the surface around each source vertex as the map does.
 
     The polar factor of the differential of the map, averaged over the faces around the vertex by area, which sends the
-    normal of the source to that of the target; it reverses orientation where the map does. The identity at vertices on
-    no face.
+    normal of the source to that of the target; it reverses orientation where the map does.
+
+    Parameters
+    ----------
+    answer : Correspondence
+        The map, of n_source vertices.
+
+    Returns
+    -------
+    float64 array of shape (n_source, 3, 3)
+        The identity at vertices on no face.
+
+    See Also
+    --------
+    carry_vectors : Vectors turned back by them.
     """
     source, image = answer.source, answer.points.positions
     rise, run = _edges(image, source.faces), _edges(source.vertices, source.faces)

@@ -27,7 +27,7 @@ LARGE = 8000
 
 
 def copied(surface: Surface, n_vertices: int) -> Surface:
-    """A copy of a surface with about so many vertices; itself where that can not be made.
+    """A copy of a surface with about so many vertices; itself where that cannot be made.
 
     The mesh it was measured from, its `original`, lies where that of the surface does.
     """

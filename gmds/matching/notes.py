@@ -18,10 +18,10 @@ from gmds.maps.point_map import MatchStatus
 
 def match_notes(source: Mesh, target: Mesh, status: MatchStatus) -> list[Note]:
     """The notes on a match of two surfaces, apart from those on its landmarks."""
-    found = []
+    notes = []
     ours, theirs = invariants(source), invariants(target)
     if str(ours) != str(theirs):
-        found.append(Note("W205", "info", f"different topology: the source has {ours}; the target has {theirs}"))
+        notes.append(Note("W205", "info", f"different topology: the source has {ours}; the target has {theirs}"))
     if status is MatchStatus.AMBIGUOUS:
-        found.append(Note("W207", "warning", status.value))
-    return found
+        notes.append(Note("W207", "warning", status.value))
+    return notes

@@ -2,48 +2,38 @@
 
 from __future__ import annotations
 
-import functools
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
 
 from geodesics import Distance, Mesh
-from geodesics.threads import on_one_blas_thread, side_by_side
-from gmds import initialization
+from geodesics.threads import on_one_blas_thread
 from gmds.correspondence import Correspondence
 from gmds.errors import SampleCountError
-from gmds.initialization.from_landmarks import landmarks as from_landmarks
 from gmds.landmarks.checking import place_landmarks
-from gmds.matching.candidates import GivenDistances, MapCandidate, make_candidate, mirrored
+from gmds.matching.candidates import MapCandidate, mirrored
 from gmds.matching.large_surfaces import CoarseCopies
 from gmds.matching.notes import match_notes
 from gmds.matching.pair import SurfacePair
-from gmds.matching.polishing import polished
-from gmds.matching.proposals import Proposal, Start, distinct, proposals
-from gmds.matching.result import contenders, correspondence_of
+from gmds.matching.proposals import distinct, proposals
+from gmds.matching.result import correspondence_of
+from gmds.matching.steps import embedded, registered, starts_of, views_of
 from gmds.mds.losses import LeastSquares, Loss
 from gmds.provenance import method_in_words
 from gmds.suggestions import suggest_keywords
-from gmds.surface.measured import Surface, measure, view_of
-from gmds.surface.view import View
+from gmds.surface.measured import Surface, measure
 
 FEWEST_SAMPLES = 3  # fewer leave a surface free to turn
 
 SAMPLES = 300  # of each surface, placed by the solver: with as many it was measured (benchmarks/results/notes.md)
-# Hard landmarks, and landmarks of any kind, that need no other starts: chosen on development pairs of SHREC'20
-# (benchmarks/results/notes.md, "Landmarks"). With fewer than six, a wrong one does less harm beside the other starts.
-ENOUGH_HARD = 3
-ENOUGH = 6
 EMBEDDED = 3  # maps of a pair, at the most, whose samples are placed: each costs 0.8 CPU seconds; set by hand
 # Of log-likelihood from the best: no map that fell short by more was the answer on 15 development pairs, the farthest
 # by 0.05 (benchmarks/results/notes.md, "Speed of a match").
 SHORTFALL = 0.8
 REFLECTED = {"preserve": (False,), "reverse": (True,), "any": (False, True)}
-
-Report = Callable[[str, float], None]
 
 
 @suggest_keywords
@@ -62,21 +52,61 @@ def match(  # noqa: PLR0913 - the signature is a promise
 ) -> Correspondence:
     """For every vertex of `source` the point of `target` it corresponds to, by generalised multidimensional scaling.
 
-    Sec. 5: many starts are refined in the scale-invariant metric (2.1) and in the metric of space, and then in the
-    metric of the target in which the map keeps area; for the most promising maps `n_samples` farthest points (300) are
-    embedded in the target by `solve` with `loss` (least squares), anywhere on its triangles, and extended to every
-    vertex; the one that best keeps distances, curvature and orientation is the answer. With `distance`, a function
-    Mesh -> Distance that is called on each surface brought to unit area, starts and embedding use that alone.
+    Sec. 5: many starts are refined in the scale-invariant metric (2.1) and in the metric of space, and weighed by what
+    it costs to deform the source as they say. For the most promising, farthest points are placed by `solve`, anywhere
+    on the triangles of the target, in the metric of the target in which the map keeps area; the map is extended to
+    every vertex and registered. The one that best keeps distances, curvature and orientation is the answer.
 
     A surface with more than 8,000 vertices is matched as a copy with some 5,000, and the map is prolonged to all of
     them, unless a `distance` is given.
 
-    Either may be a `Surface`, made by `gmds.surface.measure`: what was computed of it for one match serves the next.
+    Parameters
+    ----------
+    source, target : Mesh or Surface
+        The surfaces. A `Surface`, made by `gmds.surface.measure`, keeps what is computed of it for the next match.
+    distance : callable, optional
+        A function Mesh -> Distance, called on each surface brought to unit area: starts and embedding use that alone,
+        and the map is not registered.
+    loss : Loss, optional
+        How the residuals of the embedding add up; least squares unless given.
+    n_samples : int, optional
+        Farthest points that are placed, from 3 to the number of vertices; 300 unless given.
+    landmarks : array_like, pair or SoftLandmarks, optional
+        Corresponding points in a form of `gmds.landmarks.check_landmarks`: those at vertices are met exactly, those
+        inside a face to within the size of faces; `SoftLandmarks` pull, as far as they can be right.
+    orientation : {"preserve", "reverse", "any"}
+        What the map is to do to the orientation of the surface.
+    rng : int
+        Seeds whatever is random; in the method as it stands nothing is.
+    progress : callable, optional
+        Called as `progress(stage, fraction)`.
 
-    `landmarks` are known correspondences, see `gmds.landmarks.check_landmarks`: those at vertices are met exactly,
-    those inside a face to within the size of faces; `SoftLandmarks` pull, as far as they can be right. `rng` seeds
-    whatever is random; in the method as it stands nothing is. `progress(stage, fraction)` is called as work goes on.
-    Raises `MeshError`, `LandmarkError` (E300-E305), `SampleCountError` (E401), `SolverError` (E403).
+    Returns
+    -------
+    Correspondence
+        With the other candidates, best first; `status` and `distortion` say how far to trust it.
+
+    Raises
+    ------
+    MeshError
+        As `Mesh` and `measure` do.
+    LandmarkError
+        As `check_landmarks` does (E300 to E305).
+    SampleCountError
+        For another number of samples (E401).
+    SolverError
+        When a distance is not a number (E403).
+
+    See Also
+    --------
+    match_collection : Many pairs.
+    self_symmetry : A surface with itself.
+    solve : The embedding alone.
+
+    References
+    ----------
+    Sec. 5 of Aflalo, Kimmel, Raviv: Scale invariant geometry for nonrigid shapes (2013). What was added and why:
+    `benchmarks/results/notes.md`.
     """
     if orientation not in REFLECTED:
         raise ValueError(f"orientation must be 'preserve', 'reverse' or 'any', not {orientation!r}")
@@ -120,56 +150,6 @@ def match(  # noqa: PLR0913 - the signature is a promise
     report("done", 1.0)
     seconds = round(time.perf_counter() - started, 3)
     return replace(answer, meta={**answer.meta, "notes": [str(note) for note in notes], "seconds": seconds})
-
-
-def views_of(
-    pair: SurfacePair, distance: Callable[[Mesh], Distance] | None
-) -> tuple[list[tuple[View, View]], GivenDistances | None]:
-    """Both surfaces in each metric in which maps are proposed, and the distances that are given, if any."""
-    if distance is None:
-        ours, theirs = side_by_side(lambda surface: surface.views, (pair.source, pair.target))
-        return list(zip(ours, theirs, strict=True)), None
-    distances = distance(pair.source.mesh), distance(pair.target.mesh)
-    views = view_of(distances[0], pair.source), view_of(distances[1], pair.target)
-    return [views], GivenDistances(views, distances)
-
-
-def starts_of(pair: SurfacePair) -> list[Start]:
-    """Those of `gmds.initialization`, and those from landmarks, alone where there are enough of these."""
-    starts: list[Start] = list(initialization.ALL)
-    if pair.landmarks is None:
-        return starts
-    enough = len(pair.landmarks.hard) >= ENOUGH_HARD or len(pair.landmarks) >= ENOUGH
-    return [from_landmarks(*pair.landmarks.vertices), *(() if enough else starts)]
-
-
-def embedded(
-    pair: SurfacePair,
-    proposed: Sequence[Proposal],
-    loss: Loss,
-    count: int,
-    given: GivenDistances | None,
-    report: Report,
-) -> list[MapCandidate]:
-    """The proposals with `count` samples placed by the solver, prolonged to all vertices."""
-    report("embedding", 0.5)
-    count = min(count, len(pair.source.regular.usable))
-    place = functools.partial(make_candidate, pair, loss=loss, count=count, given=given)
-    return side_by_side(place, proposed, lambda share: report("embedding", 0.5 + 0.2 * share))
-
-
-def registered(candidates: Sequence[MapCandidate], report: Report) -> list[MapCandidate]:
-    """The candidates, the most likely first, after the one or two that contend to be the answer were polished."""
-    report("refining", 0.7)
-    rivals = contenders(candidates)
-    tell = functools.partial(_tell, report)
-    done = side_by_side(lambda one: polished(one, tell if one is rivals[0] else None), rivals)
-    ranked = sorted(done, key=lambda candidate: candidate.evidence.neg_log_likelihood)
-    return ranked + [candidate for candidate in candidates if candidate not in rivals]
-
-
-def _tell(report: Report, share: float) -> None:
-    report("refining", 0.7 + 0.3 * share)
 
 
 def check_sample_count(count: Any, mesh: Mesh) -> int:

@@ -34,11 +34,11 @@ def polished(candidate: MapCandidate, progress: Callable[[float], None] | None =
     pair, deformation = candidate.pair, candidate.deformation
     if deformation.residuals.is_congruence:
         return candidate
-    tell = progress or (lambda share: None)
+    report = progress or (lambda share: None)
     deformation = refined(pair, deformation)
-    tell(0.3)
+    report(0.3)
     deformation, settings = with_eigenfunctions(pair, deformation)
-    deformation = there_and_back(pair, deformation, settings, tell)
+    deformation = there_and_back(pair, deformation, settings, report)
     weighed = evidence(
         pair, candidate.views, deformation.points, candidate.evidence.both_simplified, deformation.residuals
     )
@@ -80,11 +80,11 @@ def with_eigenfunctions(pair: SurfacePair, deformation: Registered) -> tuple[Reg
 
 
 def there_and_back(
-    pair: SurfacePair, deformation: Registered, settings: RegistrationSettings, tell: Callable[[float], None]
+    pair: SurfacePair, deformation: Registered, settings: RegistrationSettings, report: Callable[[float], None]
 ) -> Registered:
     """The map registered both ways, a few times; without eigenfunctions only for as long as it pays."""
     for number in range(RETURNS):
-        tell(0.4 + 0.6 * number / RETURNS)
+        report(0.4 + 0.6 * number / RETURNS)
         trial = both_ways(*pair.full, deformation, settings)
         if settings.views is None and trial.residuals.cost >= (1 - GAIN) * deformation.residuals.cost:
             break

@@ -25,20 +25,47 @@ def self_symmetry(
 ) -> list[Correspondence]:
     """The intrinsic symmetries of a surface, best first, the identity excluded; see the abstract: size does not matter.
 
-    Each is a `Correspondence` of the mesh with itself. It is found whether or not the pose is symmetric, and also where
-    one of two ears or legs is larger than the other: proposals come from the scale-invariant metric (2.1) among others,
-    and parts may grow in the registration. Most animals have one, from left to right; an ellipsoid has seven.
+    One is found whether or not the pose is symmetric, and also where one of two ears or legs is larger than the other:
+    proposals come from the scale-invariant metric (2.1) among others, and parts may change size in the registration.
+    Most animals have one, from left to right; an ellipsoid has seven. A surface of revolution has more than can be
+    listed: some of them are.
 
-    `status` is GOOD for a symmetry. On a surface that has none the list holds the self-map that comes closest, alone,
-    with status POOR; it is empty when there is not even that. `meta["symmetry"]` says of each whether it is
-    `reversing` orientation, its `stress` (mean change of distances over the mean distance), `orientation` (share of the
-    area that keeps it, minus the rest), `energy` of the deformation, and `twice`: how far, on average and in root
-    areas, points are from home after the map is done twice - 0 for an involution, and then a measure of its error.
+    `meta["symmetry"]` says of each whether it is `reversing` orientation, its `stress` (mean change of distances over
+    the mean distance), `orientation` (share of the area that keeps it, minus the rest), `energy` of the deformation,
+    and `twice`: how far, on average and in root areas, points are from home after the map is done twice - 0 for an
+    involution, and then a measure of its error.
 
-    A mesh with more vertices than `n_vertices` is solved on a decimated copy and the maps are prolonged to all of it;
-    where it cannot be decimated (edges with three faces) the whole is used. A surface of revolution has more
-    symmetries than can be listed: some of them are. `progress(stage, fraction)` is called as work goes on. Raises
-    `MeshError`, `TooFewVertices` (E113), and ValueError when `n_vertices` is below 100.
+    Parameters
+    ----------
+    mesh : Mesh
+        The surface.
+    n_vertices : int
+        A mesh with more is solved on a decimated copy, and the maps are prolonged to all of it; where it cannot be
+        decimated (edges with three faces) the whole is used. At least 100.
+    progress : callable, optional
+        Called as `progress(stage, fraction)`.
+
+    Returns
+    -------
+    list of Correspondence
+        Of the mesh with itself, with `status` GOOD. On a surface without symmetry the list holds the self-map that
+        comes closest, alone, with status POOR; it is empty when there is not even that.
+
+    Raises
+    ------
+    MeshError
+        As `Mesh` does; `TooFewVertices` (E113) when the largest part has fewer than 12.
+    ValueError
+        When `n_vertices` is below 100.
+
+    See Also
+    --------
+    match : Two surfaces.
+
+    References
+    ----------
+    Abstract of Aflalo, Kimmel, Raviv: Scale invariant geometry for nonrigid shapes (2013); Ovsjanikov, Sun, Guibas:
+    Global intrinsic symmetries of shapes (2008).
     """
     if n_vertices < 100:
         raise ValueError(f"n_vertices must be at least 100, not {n_vertices}: fewer do not show a shape")
@@ -48,13 +75,13 @@ def self_symmetry(
     report("measuring", 0.0)
     surface = measure(mesh)
     copy = surface if mesh.n_vertices <= n_vertices else copied(surface, n_vertices)
-    found = likely(list(self_maps(copy, copy.reflection, LeastSquares(), report)))
-    good = [m for m in found if m.plausible]
+    maps = likely(list(self_maps(copy, copy.reflection, LeastSquares(), report)))
+    good = [m for m in maps if m.plausible]
     seconds = round(time.perf_counter() - started, 3)
     report("done", 1.0)
     settings = {"parameters": {"n_vertices": n_vertices}, "seconds": seconds}
     status = MatchStatus.GOOD if good else MatchStatus.POOR
-    answers = [_correspondence(m, settings, status) for m in good or found[:1]]
+    answers = [_correspondence(m, settings, status) for m in good or maps[:1]]
     copies = CoarseCopies(surface, surface, (copy, copy))
     return answers if copy is surface else [copies.prolonged(one) for one in answers]
 

@@ -97,7 +97,7 @@ def _tried(
 ) -> tuple[Placement, float]:
     """The placement after the walk, and its gain as a share of what was predicted.
 
-    A poor step is tried again without the points whose own residuals grew; then the share is at most 1/2.
+    A poor step is tried again without the points whose own residuals increased; then the share is at most 1/2.
     """
     end = walk(here.points, displacement, walled=walled)
     there = here.problem.at(turned_over(end)[0] if walled else end)
@@ -109,7 +109,7 @@ def _tried(
 
 
 def _without_setbacks(here: Placement, there: Placement) -> Placement:
-    """`there`, with the points back in place whose own squared residuals grew."""
+    """`there`, with the points back in place whose own squared residuals increased."""
     return here.problem.at(mixed(there.shares < here.shares, there.points, here.points))
 
 

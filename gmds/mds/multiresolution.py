@@ -24,13 +24,46 @@ def solve_multiresolution(
     tolerance: float = 1e-3,
     progress: Callable[[str, float], None] | None = None,
 ) -> Solution:
-    """Solve for the first samples, given as `start` (k,), then for `growth` times as many, until all are placed.
+    """Solve for the first samples, given as `start`, then for `growth` times as many, until all are placed.
 
     The samples of the problem should come in farthest-point order, so that the first k cover the surface. Between
     two levels each new sample goes to the vertex that best keeps its distances to the placed ones, and samples that
-    would fare better elsewhere on the target are moved there (Bronstein, Bronstein and Kimmel 2006). `max_iterations`
-    and `tolerance` are those of `solve` at each level. Raises `ValueError` when `start` is empty or too long, or
-    `growth` is not above 1.
+    would fare better elsewhere on the target are moved there.
+
+    Parameters
+    ----------
+    problem : Problem
+        Which distances are to be kept, of p samples.
+    start : SurfacePoints
+        Points of the target for the first k samples, k from 2 to p.
+    loss : Loss, optional
+        How residuals add up; least squares unless given.
+    growth : float
+        Ratio of the numbers of samples of two levels, above 1.
+    max_iterations, tolerance
+        As of `solve`, at each level.
+    progress : callable, optional
+        Called as `progress("embedding", fraction)` after each level.
+
+    Returns
+    -------
+    Solution
+        Of all samples.
+
+    Raises
+    ------
+    ValueError
+        When `start` is too short or too long, or `growth` is not above 1.
+    SolverError
+        As of `solve` (E403).
+
+    See Also
+    --------
+    solve : One level.
+
+    References
+    ----------
+    Bronstein, Bronstein, Kimmel: Efficient computation of isometry-invariant distances between surfaces (2006).
     """
     count = len(start)
     if not 2 <= count <= len(problem) or not growth > 1:

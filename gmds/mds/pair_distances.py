@@ -59,7 +59,7 @@ class EmbeddedPairs:
 class FieldPairs:
     """All distances between p points by the distance field (p, n) of each of them, linear on faces.
 
-    Both directions are averaged. Pairs that can not reach each other are +inf.
+    Both directions are averaged. Pairs that cannot reach each other are +inf.
     """
 
     points: SurfacePoints
@@ -85,7 +85,7 @@ class Pairs(Protocol):
     """All distances between p points of a surface."""
 
     def distances(self) -> Floats:
-        """Symmetric (p, p), +inf where a point can not reach another."""
+        """Symmetric (p, p), +inf where a point cannot reach another."""
 
     def derivatives(self, distances: Floats) -> Floats:
         """(p, 2, p): entry [i, :, j] is the derivative of d(x_i, x_j) by the in-face displacement of x_i."""

@@ -18,15 +18,33 @@ from gmds.mds.pair_distances import Pairs, pairwise
 
 @dataclass(frozen=True, eq=False, init=False)
 class Problem:
-    """Generalised multidimensional scaling: find rho with d_Q(rho_i, rho_j) close to d_S(s_i, s_j) (sec. 5).
+    r"""Generalised multidimensional scaling: find rho with d_Q(rho_i, rho_j) close to d_S(s_i, s_j) (sec. 5).
 
-    The residuals are r_ij = sqrt(w_ij) (d_S(s_i, s_j) - d_Q(rho_i, rho_j)) / unit, over the pairs i < j; `unit` is the
-    mean of d_S over them, so a residual of 0.05 is a twentieth of the mean distance. Pairs of samples that can not
-    reach each other are left out.
+    .. math:: r_{ij} = \sqrt{w_{ij}} \, \frac{d_S(s_i, s_j) - d_Q(\rho_i, \rho_j)}{\bar d_S}, \qquad i < j
 
-    Parameters: distances of the two surfaces, p samples of the source, `weights` (p,) of the samples (w_ij = w_i w_j)
-    or (p, p) of the pairs, scaled to mean 1, and `pairs` (r, 2) for asking of some pairs only.
-    Raises `ValueError` when shapes disagree, fewer than two samples can reach each other, or a weight is negative.
+    are the residuals, without unit: :math:`\bar d_S` is the mean of :math:`d_S` over the pairs, so a residual of 0.05
+    is a twentieth of the mean distance. Pairs of samples that cannot reach each other are left out.
+
+    Parameters
+    ----------
+    source_distance, target_distance : Distance
+        Distances of the two surfaces.
+    source_points : SurfacePoints
+        The p samples of the source.
+    weights : array_like of shape (p,) or (p, p), optional
+        Of the samples (:math:`w_{ij} = w_i w_j`) or of the pairs; they are scaled to mean 1.
+    pairs : array_like of shape (r, 2), optional
+        The pairs of samples that are asked for, all of them unless given.
+
+    Raises
+    ------
+    ValueError
+        When shapes disagree, no two samples can reach each other, or a weight is negative.
+
+    See Also
+    --------
+    solve : Places the samples.
+    TabulatedDistance : Makes geodesic distances quick.
     """
 
     source_points: SurfacePoints

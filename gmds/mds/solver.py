@@ -20,11 +20,25 @@ from gmds.mds.status import Status
 
 @dataclass(frozen=True, eq=False)
 class Solution:
-    """Where the samples ended: target points (p,), stress = loss of the residuals (r,), and how it came about.
+    """Where the samples ended, and how it came about.
 
-    `certificate`: the linearised problem can lower the stress by no more than this share of it, within a trust region
-    of `certificate_radius` mean distances a point, the points staying in their faces, and in the faces around them in
-    turn for points on edges and vertices. It is inf where the iteration limit came first.
+    Attributes
+    ----------
+    points : SurfacePoints
+        The p points of the target.
+    stress : float
+        The loss of the residuals, without unit.
+    residuals : float64 array of shape (r,)
+        Of the pairs of the problem.
+    status : Status
+        Why the solver ended.
+    certificate : float
+        The linearised problem can lower the stress by no more than this share of it, the points staying in their faces,
+        and in the faces around them in turn for points on edges and vertices; inf where the iteration limit came first.
+    certificate_radius : float
+        The trust region of that problem, in mean distances a point.
+    iterations : int
+        Of both descents together.
     """
 
     points: SurfacePoints
@@ -45,15 +59,46 @@ def solve(
     tolerance: float = 1e-3,
     progress: Callable[[str, float], None] | None = None,
 ) -> Solution:
-    """Lower the loss of the residuals (sec. 5) from `start` (p,), points of the target; least squares unless said.
+    """Lower the loss of the residuals (sec. 5) from `start`, points of the target.
 
-    Each of at most `max_iterations` rounds linearises the distances at the points, asks the loss for a step within
-    the trust region, walks the points straight across the faces, and keeps them there if the stress falls; else the
-    region shrinks. When the linearised problem predicts less than `tolerance` times the stress, or no step helps, a
-    second descent keeps every point in its face, in each of the faces in turn for points on edges and vertices, where
-    the distances have kinks. The stress never rises. Fields of geodesic distances stay frozen through both descents
-    and are then marched anew, until that brings nothing. `progress` is called with a stage and a fraction.
-    Raises `SolverError` (E403) when the stress is not finite at the start, `ValueError` when `start` does not fit.
+    Each round linearises the distances at the points, asks the loss for a step within the trust region, walks the
+    points straight across the faces, and keeps them there if the stress falls; else the region shrinks. When the
+    linearised problem predicts less than `tolerance` times the stress, or no step helps, a second descent keeps every
+    point in its face, in each of the faces in turn for points on edges and vertices, where the distances have kinks.
+    The stress never rises. Fields of geodesic distances stay frozen through both descents and are then marched anew,
+    until that brings nothing.
+
+    Parameters
+    ----------
+    problem : Problem
+        Which distances are to be kept, of p samples.
+    start : SurfacePoints
+        p points of the target.
+    loss : Loss, optional
+        How residuals add up; least squares unless given.
+    max_iterations : int
+        Rounds, at the most.
+    tolerance : float
+        Share of the stress that is not worth a round.
+    progress : callable, optional
+        Called as `progress("embedding", fraction)`.
+
+    Returns
+    -------
+    Solution
+        A poor result is no error: its `status` and `certificate` say what it is worth.
+
+    Raises
+    ------
+    SolverError
+        When the stress is not finite at the start (E403).
+    ValueError
+        When `start` does not fit the problem.
+
+    See Also
+    --------
+    solve_multiresolution : From few samples to many.
+    match : Finds a start as well.
     """
     loss = LeastSquares() if loss is None else loss
     here = problem.at(start)

@@ -6,7 +6,12 @@ from enum import Enum
 
 
 class Status(Enum):
-    """How a solver ended; the value is a sentence."""
+    """How a solver ended; the value is a sentence.
+
+    See Also
+    --------
+    MatchStatus : How far a map can be trusted.
+    """
 
     CONVERGED = "converged: the linearised problem can lower the stress by next to nothing"
     STALLED = "stalled: no step, however short, lowers the stress any more"

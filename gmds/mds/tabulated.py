@@ -13,12 +13,44 @@ from geodesics.topology.components import vertex_components
 
 @dataclass(frozen=True, eq=False, init=False)
 class TabulatedDistance:
-    """A distance as a pseudo-Euclidean embedding e (n, k), from its fields at `landmarks` farthest points.
+    r"""A distance as a pseudo-Euclidean embedding, so that any pair of points is a short sum.
 
-    d(x, y)^2 = sum of signature * (e(x) - e(y))^2, signature (k,) of +1 and -1: classical scaling of the squared
-    distances between the landmarks, extended to all vertices (Shamai and Kimmel, "Geodesic distance descriptors",
-    2017), cut to the `rank` largest eigenvalues in size. Geodesic distances come out within about a thousandth of
-    their mean. Never n x n: landmarks x n numbers are held while it is made, rank x n afterwards.
+    .. math:: d(x, y)^2 = \sum_k \sigma_k \, (e_k(x) - e_k(y))^2, \qquad \sigma_k = \pm 1
+
+    by classical scaling of the squared distances between some farthest points, extended to all vertices. Geodesic
+    distances come out within about a thousandth of their mean. Never n x n: landmarks x n numbers are held while it is
+    made, rank x n afterwards.
+
+    Parameters
+    ----------
+    distance : Distance
+        What is tabulated.
+    landmarks : int
+        Farthest points whose fields are computed, 2 at the least.
+    rank : int
+        Number of coordinates: those of the largest eigenvalues in size.
+
+    Attributes
+    ----------
+    distance : Distance
+        What was tabulated.
+    embedding : float64 array of shape (n, k)
+        :math:`e`, in units of the distance.
+    signature : float64 array of shape (k,)
+        :math:`\sigma`.
+
+    Raises
+    ------
+    ValueError
+        For fewer than 2 landmarks or a rank below 1.
+
+    References
+    ----------
+    Shamai, Kimmel: Geodesic distance descriptors (2017).
+
+    See Also
+    --------
+    Problem : Takes it as either distance.
     """
 
     distance: Distance

@@ -35,7 +35,7 @@ STEPS = 2  # from vertex to vertex for the closest vertex, at the most ("Faster 
 class DeformableMesh:
     """A mesh of unit area, and for each vertex the vertex `origin` (n,) it stands for on the surface it was made of.
 
-    `curvature` (n,): squashed mean curvature, which tells the chest from the back. `anchors`:
+    `curvature` (n,): squashed mean curvature, which distinguishes the chest from the back. `anchors`:
     where landmarks belong on the surface it is registered to.
     """
 
@@ -51,7 +51,7 @@ class DeformableMesh:
 
     @classmethod
     def simplified(cls, surface: Surface, n_faces: int = SIMPLIFIED_FACES) -> DeformableMesh:
-        """The surface with about `n_faces` faces, by collapsing edges; the whole where that can not be done."""
+        """The surface with about `n_faces` faces, by collapsing edges; the whole where that cannot be done."""
         mesh = decimated(surface.mesh, n_faces)
         if mesh is None:
             return cls.of(surface)

@@ -19,9 +19,18 @@ GIVEN_TIME = 1e-3  # heat time, in units of the area, that smooths the given map
 
 @dataclass(frozen=True, eq=False)
 class Registered:
-    """A source on the target: its vertices are at y (n, 3), and closest to the `points` (n,) of the target.
+    """A source on the target.
 
-    `strain` (n,): elastic energy around each vertex, per area.
+    Attributes
+    ----------
+    y : float64 array of shape (n, 3)
+        Where its vertices are.
+    points : SurfacePoints
+        The n points of the target they are closest to.
+    strain : float64 array of shape (n,)
+        Elastic energy around each vertex, per area.
+    residuals : Residuals
+        What is left.
     """
 
     y: Floats
@@ -33,9 +42,27 @@ class Registered:
 def register(
     source: DeformableMesh, target: DeformableMesh, images: Floats, settings: RegistrationSettings
 ) -> Registered:
-    """The source deformed so that its vertices, meant to go to `images` (n, 3), lie on the target.
+    """The source deformed so that its vertices, meant to go to `images`, lie on the target.
 
     In the first stage vertices are pulled to the images given, against the elasticity; the others are as in `settled`.
+
+    Parameters
+    ----------
+    source, target : DeformableMesh
+        Surfaces of unit area.
+    images : float64 array of shape (n, 3)
+        Where a rough map sends the n vertices of the source.
+    settings : RegistrationSettings
+        In which stages, against which energy.
+
+    Returns
+    -------
+    Registered
+        The source where it ended.
+
+    See Also
+    --------
+    settled : From where the source lies.
     """
     energy, areas = source.energy(settings.energy), source.areas
     y = source.laplacian.heat_step(GIVEN_TIME)(areas[:, None] * images)
@@ -47,12 +74,30 @@ def register(
 
 
 def settled(source: DeformableMesh, target: DeformableMesh, y: Floats, settings: RegistrationSettings) -> Registered:
-    """The source, with its vertices at y (n, 3) to begin with, deformed so that they lie on the target.
+    """The source, with its vertices at `y` to begin with, deformed so that they lie on the target.
 
-    In turn, every vertex of either surface looks for the closest point of the other, in position and normal (as in
-    ICP: Besl and McKay 1992; both ways, so that nothing of the target is left out), and the source takes the shape of
-    least elastic energy that these point constraints allow. They grow ever stronger against the elasticity. The
-    anchors of the source pull as well.
+    In turn, every vertex of either surface looks for the closest point of the other, in position and normal (as in ICP:
+    Besl and McKay 1992; both ways, so that nothing of the target is left out), and the source takes the shape of least
+    elastic energy that these point constraints allow. They grow ever stronger against the elasticity. The anchors of
+    the source pull as well.
+
+    Parameters
+    ----------
+    source, target : DeformableMesh
+        Surfaces of unit area.
+    y : float64 array of shape (n, 3)
+        Where the vertices of the source are.
+    settings : RegistrationSettings
+        In which stages, against which energy.
+
+    Returns
+    -------
+    Registered
+        The source where it ended.
+
+    See Also
+    --------
+    register : From a rough map.
     """
     energy = source.energy(settings.energy)
     for stiffness_weight, steps in settings.stages:

@@ -32,7 +32,7 @@ class Residuals:
 
         A Gaussian residual of spread s contributes log s: the root of the elastic energy; the distance from the target
         back, which is large where parts of it are left out; the unexplained part sqrt(1 - r^2) of the curvature, both
-        ways, which tells the chest from the back.
+        ways, which distinguishes the chest from the back.
         """
         unexplained = [np.sqrt(1 - np.clip(r, 0.0, 1.0) ** 2) for r in (self.curvature, self.curvature_back)]
         spreads = (np.sqrt(self.energy), self.misfit_back, *unexplained)

@@ -10,7 +10,15 @@ from gmds.surface.view import View
 
 
 class Stage(NamedTuple):
-    """Some steps at one stiffness: an area, the square of the distance over which misfits are averaged."""
+    """Some steps at one stiffness.
+
+    Parameters
+    ----------
+    stiffness_weight : float
+        An area: the square of the distance over which misfits are averaged.
+    steps : int
+        How often closest points are sought anew.
+    """
 
     stiffness_weight: float
     steps: int
@@ -33,9 +41,16 @@ AFTER_RETURN: Stages = (Stage(1e-3, 3), Stage(1e-3, 3), Stage(5e-4, 3))
 class RegistrationSettings:
     """How a source is deformed onto a target.
 
-    `stages`: in the first the source follows the images given, in the others the closest points; `energy`: what holds
-    against that; `partial`: whether what is closest to a boundary is left alone, as what it belongs to may be missing;
-    `views`, of both undeformed surfaces: whether eigenfunctions take part in the search for closest points.
+    Parameters
+    ----------
+    stages : tuple of Stage
+        In the first the source follows the images given, in the others the closest points.
+    energy : callable
+        A function CotangentLaplacian -> Energy, such as `ThinShell`: what holds against that.
+    partial : bool
+        Whether what is closest to a boundary is left alone, as what it belongs to may be missing.
+    views : pair of View, optional
+        Of both undeformed surfaces: their eigenfunctions take part in the search for closest points.
     """
 
     stages: Stages = (*TO_IMAGES, *COARSE, *FINE)

@@ -1,9 +1,10 @@
-"""The metric of the target in which a map keeps area: parts that grew are shrunk back before they are compared.
+"""The metric of the target in which a map keeps area: parts of another size are rescaled before they are compared.
 
 Two surfaces whose parts differ in scale are related by a map that is nearly conformal. In the metric rho g of the
 target, with rho the area of the source that the map brings per area of the target, the map is nearly an isometry, and
-distances can be compared as if nothing had grown. The scale-invariant metric needs no map to start from, but measures
-curvature; this one needs a rough map, and measures areas only. Both are conformal to g, so stiffness is shared.
+distances can be compared as if no part had changed size. The scale-invariant metric needs no map to start from, but
+measures curvature; this one needs a rough map, and measures areas only. Both are conformal to g, so stiffness is
+shared.
 """
 
 from __future__ import annotations

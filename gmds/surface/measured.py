@@ -87,7 +87,29 @@ class Surface:
 
 
 def measure(mesh: Mesh, *, reflected: bool = False) -> Surface:
-    """The largest part of `mesh`, or of its mirror image, ready for matching. Raises `TooFewVertices` (E113)."""
+    """The largest part of a mesh, ready for matching: what is computed of it for one match serves the next.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Any surface; parts that do not hang together with the largest are left out.
+    reflected : bool
+        Whether its mirror image is meant.
+
+    Returns
+    -------
+    Surface
+        Brought to unit area and oriented; `match` takes it in place of the mesh.
+
+    Raises
+    ------
+    TooFewVertices
+        When the largest part has fewer than 12 vertices (E113).
+
+    See Also
+    --------
+    match : Measures what it is given.
+    """
     area = areas(squared_lengths(mesh.vertices, mesh.faces))
     kept = np.flatnonzero(largest_component(mesh))
     kept = kept[np.argsort(-area[kept], kind="stable")]  # the order of the faces in the file is to have no say

@@ -14,8 +14,9 @@ from geodesics import GeodesicDistance, Mesh, SurfacePoints, eigenpairs, embedde
 from geodesics.io.text import Contents
 from geodesics.topology.edges import edges
 from geodesics.topology.orientation import orientation
-from gmds.landmarks.checking import SoftLandmarks, place_landmarks
+from gmds.landmarks.checking import place_landmarks
 from gmds.landmarks.files import Landmarks
+from gmds.landmarks.soft import SoftLandmarks
 from gmds.maps.point_map import Candidate
 
 MESH = icosphere(1)

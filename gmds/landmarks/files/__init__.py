@@ -12,7 +12,7 @@
 
 Frames: LPS has x to the left and y to the back of a patient, RAS the opposite of both, and z up in both, so one
 becomes the other when x and y change sign. Only a file of 3D Slicer, or a .csv with the header l,p,s or r,a,s, says
-which it uses; meshes do not. `space` is the frame of the mesh: LPS unless told otherwise, as 3D Slicer has written
+which it uses; meshes do not. `space` is the frame of the mesh: LPS unless said otherwise, as 3D Slicer has written
 meshes since 4.11. Points of the other frame are turned into it; a file that does not say is taken as it is.
 """
 
@@ -54,9 +54,31 @@ def ending(path: str | os.PathLike[str]) -> str:
 
 
 def read_landmarks(path: str | os.PathLike[str], space: Space = "LPS") -> Landmarks:
-    """The landmarks in a file, in the frame `space`; the ending says which format it is.
+    """The landmarks in a file; the ending says which format it is.
 
-    Raises `BadLandmarkFile` (E306) naming the line or the control point, and `OSError` when it cannot be opened.
+    Parameters
+    ----------
+    path : path
+        Ends in .csv, .mrk.json, .fcsv, .tps, .pts or .vts.
+    space : {"LPS", "RAS"}
+        The frame of the mesh, in which positions are given back.
+
+    Returns
+    -------
+    Landmarks
+        Named where the format has names.
+
+    Raises
+    ------
+    BadLandmarkFile
+        Naming the line or the control point (E306).
+    OSError
+        When it cannot be opened.
+
+    See Also
+    --------
+    write_landmarks : The opposite.
+    paired : Which of two surfaces belong together.
     """
     parse, _ = _FORMATS[ending(path)]
     return parse(Path(path), landmark_text(Path(path)), space)
@@ -68,10 +90,29 @@ def write_landmarks(
     space: Space = "LPS",
     columns: Mapping[str, Sequence[object]] | None = None,
 ) -> None:
-    """Write landmarks whose frame is `space`, atomically, in the format the ending says.
+    """Write landmarks, atomically, in the format the ending says.
 
-    `columns` are further values, one for each landmark: columns of a .csv, the description in files of 3D Slicer, and
-    dropped elsewhere. Raises `BadLandmarkFile` when the format takes positions and there are vertices, or the reverse.
+    Parameters
+    ----------
+    path : path
+        Ends in .csv, .mrk.json, .fcsv, .tps, .pts or .vts.
+    landmarks : Landmarks
+        k of them.
+    space : {"LPS", "RAS"}
+        The frame they are in.
+    columns : mapping of str to sequences, optional
+        Further values, k each: columns of a .csv, the description in files of 3D Slicer, dropped elsewhere.
+
+    Raises
+    ------
+    BadLandmarkFile
+        When the format takes positions and there are vertices, or the reverse (E306).
+    OSError
+        When it cannot be written.
+
+    See Also
+    --------
+    read_landmarks : The opposite.
     """
     from geodesics.io import atomic_write
 

@@ -25,11 +25,28 @@ class BadLandmarkFile(FormatError):
 
 @dataclass(frozen=True, eq=False)
 class Landmarks:
-    """Points of one surface: `at` is (k, 3) float64 positions, (k,) int64 vertices from 0, or (k, 4) faces from 0 and
-    three barycentric weights, as `match` takes them.
+    """Named points of one surface, k of them.
 
-    `names`: k different names. `named`: whether they were given; otherwise they are 1, 2, ... `missing`: names that
-    are listed without a place. Raises `BadLandmarkFile` when a name is there twice or the shapes do not agree.
+    Parameters
+    ----------
+    names : tuple of str
+        All different.
+    at : array_like of shape (k, 3), (k,) or (k, 4)
+        Positions, vertices from 0, or faces from 0 with three barycentric weights, as `match` takes them.
+    named : bool
+        Whether the names were given; otherwise they are 1, 2, ...
+    missing : tuple of str
+        Names that are listed without a place.
+
+    Raises
+    ------
+    BadLandmarkFile
+        When a name is there twice or the shapes do not agree (E306).
+
+    See Also
+    --------
+    gmds.landmarks.files.read_landmarks : From a file.
+    SoftLandmarks : Landmarks that pull rather than pin.
     """
 
     names: tuple[str, ...]
@@ -71,10 +88,28 @@ class Landmarks:
 
 
 def paired(source: Landmarks, target: Landmarks) -> tuple[Landmarks, Landmarks, tuple[str, ...]]:
-    """The landmarks that both surfaces have, in the same order, and the names of those that only one has.
+    """The landmarks that both surfaces have, in the same order: by name when both name theirs, else by order.
 
-    By name when both files name theirs, else by order. Raises `LandmarkError` (E303) when no name is shared, or when
-    the order decides and the counts differ.
+    Parameters
+    ----------
+    source, target : Landmarks
+        Of either surface.
+
+    Returns
+    -------
+    source, target : Landmarks
+        Those that both have, in one order.
+    alone : tuple of str
+        The names of those that only one has.
+
+    Raises
+    ------
+    LandmarkError
+        When no name is shared, or when the order decides and the counts differ (E303).
+
+    See Also
+    --------
+    check_landmarks : Takes what both give.
     """
     if not (source.named and target.named):
         if len(source) != len(target):

@@ -82,8 +82,8 @@ def parse_fcsv(path: Path, text: str, space: Space) -> Landmarks:
     for number, cells in places:
         at = position(path, number, [cells[axis] for axis in "xyz"])
         rows.add(f"line {number}", unguarded(cells["label"]), at)
-    found = rows.landmarks()
-    return Landmarks(found.names, turned(found.at, given, space), found.named)
+    landmarks = rows.landmarks()
+    return Landmarks(landmarks.names, turned(landmarks.at, given, space), landmarks.named)
 
 
 def fcsv_text(landmarks: Landmarks, space: Space, columns: Columns) -> str:

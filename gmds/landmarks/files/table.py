@@ -41,12 +41,12 @@ def parse_csv(path: Path, text: str, space: Space) -> Landmarks:
         elif "defined" not in columns or row[columns["defined"][0]].strip() != "0":
             at = position(path, line, [row[i] for i in columns["position"]])
         rows.add(f"line {line}", name, at)
-    found = rows.landmarks()
+    landmarks = rows.landmarks()
     if "position" not in columns:
-        return found
+        return landmarks
     axes = "".join(cells[i].strip() for i in columns["position"]).upper() if headed else ""
     given = axes if axes in SPACES else space
-    return Landmarks(found.names, turned(found.at, given, space), found.named, found.missing)
+    return Landmarks(landmarks.names, turned(landmarks.at, given, space), landmarks.named, landmarks.missing)
 
 
 def csv_text(landmarks: Landmarks, _: Space, columns: Columns) -> str:
@@ -77,21 +77,21 @@ def _table(path: Path, text: str) -> list[tuple[int, list[str]]]:
 def _columns(path: Path, line: int, cells: list[str]) -> dict[str, tuple[int, ...]]:
     """Which columns hold what, by their titles."""
     titles = [cell.strip().lower() for cell in cells]
-    found = {"name": _one_of(titles, NAMES), "defined": _one_of(titles, ("defined",))}
+    places = {"name": _one_of(titles, NAMES), "defined": _one_of(titles, ("defined",))}
     for axes in ("xyz", "lps", "ras"):
         if set(axes) <= set(titles):
-            found["position"] = tuple(titles.index(axis) for axis in axes)
+            places["position"] = tuple(titles.index(axis) for axis in axes)
             break
     else:
         if set(BARYCENTRIC) <= set(titles):
-            found["face"] = tuple(titles.index(title) for title in BARYCENTRIC)
+            places["face"] = tuple(titles.index(title) for title in BARYCENTRIC)
         else:
-            found["vertex"] = _one_of(titles, VERTICES)
-    if not (found.get("position") or found.get("vertex") or found.get("face")):
+            places["vertex"] = _one_of(titles, VERTICES)
+    if not (places.get("position") or places.get("vertex") or places.get("face")):
         raise BadLandmarkFile(
             f"{path}, line {line}: a header needs the columns x, y, z (l, p, s; r, a, s), vertex, or face, w0, w1, w2"
         )
-    return {key: columns for key, columns in found.items() if columns}
+    return {key: columns for key, columns in places.items() if columns}
 
 
 def _one_of(titles: list[str], wanted: tuple[str, ...]) -> tuple[int, ...]:

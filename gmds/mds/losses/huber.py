@@ -12,7 +12,26 @@ from gmds.mds.losses.base import SmoothLoss
 
 @dataclass(frozen=True)
 class Huber(SmoothLoss):
-    """The mean of r^2 where |r| <= t, and of t (2 |r| - t) beyond; t is in mean distances (Huber 1964)."""
+    r"""The mean of :math:`r^2` where :math:`|r| \le t`, and of :math:`t (2 |r| - t)` beyond: outliers count less.
+
+    Parameters
+    ----------
+    threshold : float
+        :math:`t`, positive, in mean distances.
+
+    Raises
+    ------
+    ValueError
+        When the threshold is not positive.
+
+    References
+    ----------
+    Huber: Robust estimation of a location parameter (1964).
+
+    See Also
+    --------
+    LeastSquares, Power, Minimax : Other losses.
+    """
 
     threshold: float = 0.1
 

@@ -12,7 +12,16 @@ from gmds.mds.losses.base import SmoothLoss
 
 @dataclass(frozen=True)
 class LeastSquares(SmoothLoss):
-    """The mean of r^2: the generalised stress of Bronstein, Bronstein and Kimmel (2006) with p = 2."""
+    """The mean of :math:`r^2`: the generalised stress with exponent 2.
+
+    References
+    ----------
+    Bronstein, Bronstein, Kimmel: Generalized multidimensional scaling (2006).
+
+    See Also
+    --------
+    Huber, Power, Minimax : Other losses.
+    """
 
     def rho(self, residuals: Floats) -> Floats:
         """r^2."""

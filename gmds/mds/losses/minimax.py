@@ -18,7 +18,18 @@ Set by hand: it bounds what is given away of the maximum."""
 
 @dataclass(frozen=True)
 class Minimax:
-    """max |r|: the distortion of sec. 5, min over rho of max |d_S(s, s') - d_Q(rho s, rho s')|."""
+    r""":math:`\max |r|`: the distortion of sec. 5, min over rho of max |d_S(s, s') - d_Q(rho s, rho s')|.
+
+    Each step is a linear program (HiGHS) over the residuals that are largest.
+
+    References
+    ----------
+    Sec. 5 of Aflalo, Kimmel, Raviv: Scale invariant geometry for nonrigid shapes (2013).
+
+    See Also
+    --------
+    LeastSquares, Huber, Power : Other losses.
+    """
 
     def value(self, residuals: Floats) -> float:
         """The largest |r|."""
@@ -35,8 +46,8 @@ class Minimax:
         active = np.sort(np.argsort(-np.abs(residuals), kind="stable")[:size])
         step = np.zeros((jacobian.n_points, 2))
         for _ in range(40):
-            step, found = _program(jacobian, residuals, radius, active, highest)
-            excess = np.abs(residuals + jacobian.apply(step)) - found
+            step, maximum = _program(jacobian, residuals, radius, active, highest)
+            excess = np.abs(residuals + jacobian.apply(step)) - maximum
             excess[active] = 0
             worst = np.argsort(-excess, kind="stable")[:size]
             worst = worst[excess[worst] > 1e-5 * radius]

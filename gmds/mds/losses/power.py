@@ -12,9 +12,25 @@ from gmds.mds.losses.base import SmoothLoss
 
 @dataclass(frozen=True)
 class Power(SmoothLoss):
-    """The mean of (r^2 + s^2)^(p/2) - s^p: the generalised stress with exponent p >= 1, rounded at s mean distances.
+    """The mean of :math:`(r^2 + s^2)^{p/2} - s^p`: the generalised stress with exponent p, rounded at zero.
 
-    p = 1 is the mean absolute residual; large p approaches the maximum.
+    p = 1 is the mean absolute residual; a large p approaches the maximum.
+
+    Parameters
+    ----------
+    exponent : float
+        :math:`p`, at least 1.
+    rounding : float
+        :math:`s`, positive, in mean distances.
+
+    Raises
+    ------
+    ValueError
+        When the exponent is below 1 or not finite, or the rounding is not positive.
+
+    See Also
+    --------
+    LeastSquares, Huber, Minimax : Other losses.
     """
 
     exponent: float = 4.0

@@ -9,7 +9,17 @@ from gmds.registration.energies.base import LocalGlobalEnergy
 
 
 class AsRigidAsPossible(LocalGlobalEnergy):
-    """Sizes s_i are all alike: as rigid as possible (Sorkine and Alexa 2007), up to the size of the whole."""
+    """Sizes :math:`s_i` are all alike: as rigid as possible, up to the size of the whole.
+
+    References
+    ----------
+    Sorkine, Alexa: As-rigid-as-possible surface modeling (2007).
+
+    See Also
+    --------
+    AsSimilarAsPossible : Parts may change size.
+    ThinShell : Nothing may, and bending costs as well.
+    """
 
     def sizes(self, sums: Floats) -> Floats:
         """The one size of least energy."""

@@ -16,10 +16,18 @@ LARGEST = 10.0  # local size, and one over the least: a bound
 
 
 class AsSimilarAsPossible(LocalGlobalEnergy):
-    """Sizes s_i vary slowly over the surface.
+    r"""Sizes :math:`s_i` vary slowly over the surface.
 
     They are ratios of averages over a neighbourhood, shrunk to 1 the less they differ from it: a surface is the same
     size until there is reason to believe otherwise.
+
+    .. math:: \log s_i = \frac{l_i^3}{l_i^2 + d^2}
+
+    with :math:`l_i` the logarithm of the averaged ratio and the doubt :math:`d` = 0.05.
+
+    See Also
+    --------
+    AsRigidAsPossible : One size.
     """
 
     def sizes(self, sums: Floats) -> Floats:

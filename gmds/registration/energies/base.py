@@ -17,9 +17,14 @@ from gmds.registration.stiffness import StiffnessSystem
 
 
 class Energy(Protocol):
-    """What it costs to move the vertices x (n, 3) of a surface to y (n, 3): quadratic once a local step is done.
+    r"""What it costs to move the vertices x of a surface to y: quadratic once a local step is done.
 
-    With `local` held, the gradient of the total is 4 (K y - right_hand_side(local)), K the matrix of `system`.
+    With `local` held, the gradient of the total is :math:`4 (K y - \mathrm{rhs})`, K the matrix of `system` and rhs
+    what `right_hand_side(local)` gives.
+
+    See Also
+    --------
+    AsRigidAsPossible, AsSimilarAsPossible, ThinShell : Those there are.
     """
 
     @property
@@ -41,11 +46,22 @@ EnergyKind = Callable[[CotangentLaplacian], Energy]
 
 @dataclass(frozen=True, eq=False)
 class LocalGlobalEnergy(ABC):
-    """The energy sum_ij w_ij |y_i - y_j - s_i R_i (x_i - x_j)|^2 of moving the vertices x of a mesh to y.
+    r"""An energy that compares edges with rotated and resized ones, as subclasses allow.
 
-    R_i are rotations, s_i the sizes that subclasses choose, w_ij cotangent weights, so that flat stretch costs its
-    Dirichlet energy. The local step finds the similarities s_i R_i, the global step the vertices (Sorkine and Alexa
-    2007).
+    .. math:: E(y) = \min_{R, s} \sum_{ij} w_{ij} \, | y_i - y_j - s_i R_i (x_i - x_j) |^2
+
+    with rotations :math:`R_i`, the sizes :math:`s_i` that subclasses choose, and cotangent weights :math:`w_{ij}`, so
+    that flat stretch costs its Dirichlet energy. The local step finds the similarities :math:`s_i R_i`, the global step
+    the vertices.
+
+    Parameters
+    ----------
+    laplacian : CotangentLaplacian
+        Of the surface at rest.
+
+    References
+    ----------
+    Sorkine, Alexa: As-rigid-as-possible surface modeling (2007).
     """
 
     laplacian: CotangentLaplacian

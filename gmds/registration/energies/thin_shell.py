@@ -18,11 +18,29 @@ BENDING = 1e-3  # an area, the square of a thickness: 3 % of the root of the are
 
 @dataclass(frozen=True, eq=False)
 class ThinShell(LocalGlobalEnergy):
-    """sum_ij w_ij |y_i - y_j - R_i (x_i - x_j)|^2 + b sum_i A_i |d_i(y) - R_i d_i(x)|^2, b the `bending` stiffness.
+    r"""Stretch as rigid as possible, and the change of Laplacian coordinates; nothing changes size.
 
-    d(y) = A^-1 L y are Laplacian coordinates (twice the mean curvature normal), which the rotations R_i turn along:
-    the stiffness matrix is L + b/2 L A^-1 L, that of the linear thin shell of Botsch and Sorkine (2008). Nothing
-    changes size.
+    .. math::
+        E(y) = \min_R \sum_{ij} w_{ij} \, | y_i - y_j - R_i (x_i - x_j) |^2
+            + b \sum_i A_i \, | \delta_i(y) - R_i \, \delta_i(x) |^2
+
+    with :math:`\delta(y) = A^{-1} L y`, twice the mean curvature normal, which the rotations :math:`R_i` turn along.
+    The stiffness matrix is :math:`L + \tfrac{b}{2} L A^{-1} L`, that of a linear thin shell.
+
+    Parameters
+    ----------
+    laplacian : CotangentLaplacian
+        Of the surface at rest.
+    bending : float
+        :math:`b`, an area: the square of a thickness.
+
+    References
+    ----------
+    Botsch, Sorkine: On linear variational surface deformation methods (2008).
+
+    See Also
+    --------
+    AsRigidAsPossible : Without bending.
     """
 
     laplacian: CotangentLaplacian

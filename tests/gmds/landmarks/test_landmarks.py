@@ -10,7 +10,8 @@ from generated_shapes import bumpy_sphere, icosphere, with_isolated
 
 from geodesics import Mesh, SurfacePoints
 from gmds.errors import LandmarkError, SampleCountError, UnknownKey
-from gmds.landmarks.checking import SoftLandmarks, check_landmarks, place_landmarks
+from gmds.landmarks.checking import check_landmarks, place_landmarks
+from gmds.landmarks.soft import SoftLandmarks
 from gmds.matching.pipeline import check_sample_count
 from gmds.suggestions import check_keys, suggest_keywords
 

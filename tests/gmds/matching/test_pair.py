@@ -8,7 +8,8 @@ import pytest
 from matched_shapes import animal, bumpy, reflected, surface
 
 from geodesics import SurfacePoints
-from gmds.landmarks.checking import SoftLandmarks, place_landmarks
+from gmds.landmarks.checking import place_landmarks
+from gmds.landmarks.soft import SoftLandmarks
 from gmds.matching import pair as pair_module
 from gmds.matching.pair import WEIGHT, SurfacePair
 from gmds.spectral.orientation import vertex_map_orientation

@@ -1,0 +1,76 @@
+"""The steps of a match that are not files of their own: what to propose from, embedding, and registering the best."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Sequence
+
+from geodesics import Distance, Mesh
+from geodesics.threads import side_by_side
+from gmds import initialization
+from gmds.initialization.from_landmarks import landmarks as from_landmarks
+from gmds.matching.candidates import GivenDistances, MapCandidate, make_candidate
+from gmds.matching.pair import SurfacePair
+from gmds.matching.polishing import polished
+from gmds.matching.proposals import Proposal, Start
+from gmds.matching.result import contenders
+from gmds.mds.losses import Loss
+from gmds.surface.measured import view_of
+from gmds.surface.view import View
+
+# Hard landmarks, and landmarks of any kind, that need no other starts: chosen on development pairs of SHREC'20
+# (benchmarks/results/notes.md, "Landmarks"). With fewer than six, a wrong one does less harm beside the other starts.
+ENOUGH_HARD = 3
+ENOUGH = 6
+
+Report = Callable[[str, float], None]
+
+
+def views_of(
+    pair: SurfacePair, distance: Callable[[Mesh], Distance] | None
+) -> tuple[list[tuple[View, View]], GivenDistances | None]:
+    """Both surfaces in each metric in which maps are proposed, and the distances that are given, if any."""
+    if distance is None:
+        ours, theirs = side_by_side(lambda surface: surface.views, (pair.source, pair.target))
+        return list(zip(ours, theirs, strict=True)), None
+    distances = distance(pair.source.mesh), distance(pair.target.mesh)
+    views = view_of(distances[0], pair.source), view_of(distances[1], pair.target)
+    return [views], GivenDistances(views, distances)
+
+
+def starts_of(pair: SurfacePair) -> list[Start]:
+    """Those of `gmds.initialization`, and those from landmarks, alone where there are enough of these."""
+    starts: list[Start] = list(initialization.ALL)
+    if pair.landmarks is None:
+        return starts
+    enough = len(pair.landmarks.hard) >= ENOUGH_HARD or len(pair.landmarks) >= ENOUGH
+    return [from_landmarks(*pair.landmarks.vertices), *(() if enough else starts)]
+
+
+def embedded(
+    pair: SurfacePair,
+    proposed: Sequence[Proposal],
+    loss: Loss,
+    count: int,
+    given: GivenDistances | None,
+    report: Report,
+) -> list[MapCandidate]:
+    """The proposals with `count` samples placed by the solver, prolonged to all vertices."""
+    report("embedding", 0.5)
+    count = min(count, len(pair.source.regular.usable))
+    place = functools.partial(make_candidate, pair, loss=loss, count=count, given=given)
+    return side_by_side(place, proposed, lambda share: report("embedding", 0.5 + 0.2 * share))
+
+
+def registered(candidates: Sequence[MapCandidate], report: Report) -> list[MapCandidate]:
+    """The candidates, the most likely first, after the one or two that contend to be the answer were polished."""
+    report("refining", 0.7)
+    rivals = contenders(candidates)
+    refining = functools.partial(_refining, report)
+    done = side_by_side(lambda one: polished(one, refining if one is rivals[0] else None), rivals)
+    ranked = sorted(done, key=lambda candidate: candidate.evidence.neg_log_likelihood)
+    return ranked + [candidate for candidate in candidates if candidate not in rivals]
+
+
+def _refining(report: Report, share: float) -> None:
+    report("refining", 0.7 + 0.3 * share)
