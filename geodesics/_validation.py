@@ -131,9 +131,7 @@ def as_array(values: Any, name: str) -> NDArray[Any]:
 def check_area(v: Floats, f: Integers) -> None:
     """`ZeroArea` when no face has an area."""
     if is_flat(v, f).all():
-        raise ZeroArea(
-            f"all {len(f)} faces have zero area: their corners coincide or lie on lines, as far as float64 can tell"
-        )
+        raise ZeroArea(f"all {len(f)} faces have zero area: their corners coincide or lie on lines, up to rounding")
 
 
 def is_flat(v: Floats, f: Integers) -> Bools:

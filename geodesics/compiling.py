@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from geodesics._kernels.jit import cache_folder, told_of_compiling
+from geodesics._kernels.jit import cache_folder, reporting_compilation
 
-__all__ = ["cache_folder", "told_of_compiling"]
+__all__ = ["cache_folder", "reporting_compilation"]

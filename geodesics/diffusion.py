@@ -174,7 +174,7 @@ class BiharmonicDistance(_SpectralDistance):
 
 
 def _positive_part(spectrum: Spectrum) -> tuple[Floats, Floats]:
-    """Eigenpairs without the constants of the components, which carry no distance."""
+    """Eigenpairs without the constants on components, which do not contribute to distances."""
     components = int(vertex_components(spectrum.mesh).max()) + 1
     null = spectrum.eigenvalues * spectrum.mass.sum() < 1e-6
     null[components:] = False

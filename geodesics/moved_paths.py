@@ -30,7 +30,7 @@ MOVED: Mapping[str, tuple[str, ...]] = {
 
 
 class MovedModules(MetaPathFinder, Loader):
-    """Finds modules by their old paths; each hands out what is now in the modules of the new ones."""
+    """Finds modules by their old paths; each gives the names that are now in the modules of the new paths."""
 
     def __init__(self, moved: Mapping[str, tuple[str, ...]]) -> None:
         self.moved = moved
@@ -38,21 +38,21 @@ class MovedModules(MetaPathFinder, Loader):
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """Asked after all other finders: only for what is nowhere else."""
+        """Called after all other finders, so only for modules that do not exist."""
         return ModuleSpec(fullname, self, is_package=True) if fullname in self.moved else None
 
     def create_module(self, spec: ModuleSpec) -> None:
         """An empty module, as usual."""
 
     def exec_module(self, module: ModuleType) -> None:
-        """Names are looked up in the new modules when they are asked for."""
+        """Names are looked up in the new modules when they are used."""
         module.__getattr__ = names_moved(module.__name__, self.moved[module.__name__])  # type: ignore[method-assign]
 
 
 def names_moved(old: str, new: tuple[str, ...]) -> Callable[[str], Any]:
-    """A module's `__getattr__` that finds, with a DeprecationWarning, what was in `old` in the modules `new`."""
+    """A module's `__getattr__` that finds, with a DeprecationWarning, in the modules `new` what was in `old`."""
 
-    def found(name: str) -> Any:
+    def look_up(name: str) -> Any:
         for place in () if name.startswith("__") else new:
             module = importlib.import_module(place)
             if hasattr(module, name):
@@ -60,7 +60,7 @@ def names_moved(old: str, new: tuple[str, ...]) -> Callable[[str], Any]:
                 return getattr(module, name)
         raise AttributeError(f"module {old!r} has no attribute {name!r}")
 
-    return found
+    return look_up
 
 
 def keep_old_paths(moved: Mapping[str, tuple[str, ...]]) -> None:

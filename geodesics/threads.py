@@ -1,7 +1,7 @@
 """Linear algebra on one thread, and independent work on several.
 
-Threads of BLAS make small products slower, and the last digits depend on their number. On two shared cores those of
-OpenBLAS took three to five times the CPU time of one to match two meshes.
+Threads of BLAS make small products slower, and the last digits depend on their number. On two shared cores OpenBLAS
+took three to five times the CPU time of one thread to match two meshes.
 """
 
 from __future__ import annotations
@@ -68,10 +68,11 @@ def threads() -> int:
 def side_by_side(
     function: Callable[[S], R], items: Iterable[S], progress: Callable[[float], None] | None = None
 ) -> list[R]:
-    """The function of each item, in their order, on `threads()` threads; what is returned does not depend on these.
+    """The function of each item, in their order, on `threads()` threads; results do not depend on their number.
 
-    Inside such a function there are no further threads. `progress(share)` is called on the calling thread as results
-    come in. What it raises, and what the function does, ends the work: items that were not begun are not.
+    A function that runs on one of these threads uses no others. `progress(share)` is called on the calling thread as
+    results arrive. An exception, of the function or of `progress`, ends the work, and items that have not begun are
+    left out.
     """
     given, results = list(items), []
     count = 1 if getattr(_own, "busy", False) else min(threads(), len(given))

@@ -20,15 +20,15 @@ def njit(function: F) -> F:
 
 
 def uncounted(function: F) -> F:
-    """As `njit`, for kernels that make no arrays: references to arrays are not counted, a sixth of the time saved."""
+    """As `njit`, for kernels that make no arrays: without counting references to arrays, in a sixth less time."""
     try:
         return _compiled(function, _nrt=False, **OPTIONS)
-    except (KeyError, TypeError):  # a private option of numba, which may go
+    except (KeyError, TypeError):  # a private option of numba, which may disappear
         return _compiled(function, **OPTIONS)
 
 
 def inlined(function: F) -> F:
-    """For helpers that take arrays: pasted into the caller, as calls count references to each array (6x slower)."""
+    """For helpers that take arrays: inlined, as a call counts references to each array and is 6 times slower."""
     return numba.njit(inline="always", **OPTIONS)(function)  # type: ignore[no-any-return]
 
 
@@ -51,12 +51,12 @@ def cache_folder() -> str | None:
 
 
 def _probe() -> None:
-    """Never called: where numba would keep this is where it keeps the kernels beside it."""
+    """Never called: numba would keep it where it keeps the kernels of this folder."""
 
 
 @contextmanager
-def told_of_compiling(tell: Callable[[bool], None]) -> Iterator[None]:
-    """Inside the block, `tell(True)` when a kernel begins to be compiled, not read from disk; then `tell(False)`."""
+def reporting_compilation(report: Callable[[bool], None]) -> Iterator[None]:
+    """In the block, `report(True)` when a kernel begins to be compiled, not read from disk; then `report(False)`."""
 
     class Listener(event.Listener):  # type: ignore[misc]
         depth = 0  # kernels compile the kernels that they call
@@ -64,12 +64,12 @@ def told_of_compiling(tell: Callable[[bool], None]) -> Iterator[None]:
         def on_start(self, event: Any) -> None:
             self.depth += 1
             if self.depth == 1:
-                tell(True)
+                report(True)
 
         def on_end(self, event: Any) -> None:
             self.depth -= 1
             if self.depth == 0:
-                tell(False)
+                report(False)
 
     with event.install_listener("numba:compile", Listener()):
         yield

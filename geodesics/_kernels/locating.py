@@ -44,7 +44,7 @@ def _first_corner(net: Net, v: int, way: float) -> tuple[int, float]:
 
 @njit
 def _walk(lengths: Floats, twin: Integers, h: int, angle: float, distance: float, weights: Floats) -> int:
-    """Go straight from corner h, at `angle` from its first edge; returns the face reached, -1 if a border was met.
+    """Go straight from corner h, at `angle` from its first edge; returns the face reached, -1 if the boundary was met.
 
     The triangle is kept as its corners in the plane of the first face; weights (3,) receives the barycentric place.
     """

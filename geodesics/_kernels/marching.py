@@ -234,9 +234,9 @@ def _beside(table: Table, state: Floats, v: int) -> float:
 
 @uncounted
 def march(corners: Corners, front: Front, until: Until) -> None:
-    """Accept the vertices of the heap in order of distance, each carrying the front over the faces around it.
+    """Accept the vertices of the heap in order of distance, each advancing the front over the faces around it.
 
-    A vertex accepted too soon, which happens behind obtuse angles, is lowered and accepted anew.
+    A vertex accepted too soon, which happens behind obtuse angles, is lowered and accepted again.
     """
     start, ends, shape, slowness = corners.start, corners.ends, corners.shape, corners.slowness
     table = (start, ends, shape)
@@ -258,8 +258,8 @@ def march(corners: Corners, front: Front, until: Until) -> None:
         if dv > nearest[v] + state[v, 5]:
             continue
         late = False
-        for anew in range(2):  # accepted vertices are lowered last, so that the order of faces does not matter
-            if anew and not late:
+        for again in range(2):  # accepted vertices are lowered last, so that the order of faces does not matter
+            if again and not late:
                 break
             for q in range(start[v], start[v + 1]):
                 for side in range(2):
@@ -268,9 +268,9 @@ def march(corners: Corners, front: Front, until: Until) -> None:
                     edge = 0.5 * (state[v, 4] + state[c, 4]) * shape[q, 1 - side]
                     if place == ACCEPTED and state[c, 0] <= dv and _behind(shape, q, side, edge, dv - state[v, 2]):
                         continue
-                    if anew and visits[c] == 0:
+                    if again and visits[c] == 0:
                         continue
-                    if place == ACCEPTED and not anew:
+                    if place == ACCEPTED and not again:
                         late = True
                         continue
                     new, direction, offset = dv + edge, ALONG, state[v, 2]

@@ -48,7 +48,7 @@ def walk(
     end_barycentric = barycentric.copy()
     b = np.empty(3)
     rate = np.empty(3)
-    carried = np.empty(3)
+    moved = np.empty(3)
     for p in range(len(face)):
         f = face[p]
         vx, vy = displacement[p, 0], displacement[p, 1]
@@ -87,12 +87,12 @@ def walk(
                 vx, vy = along * ex, along * ey
                 continue
             g, i, j = code // 9, (code // 3) % 3, code % 3
-            carried[i], carried[j], carried[3 - i - j] = b[k1], b[k2], 0.0
+            moved[i], moved[j], moved[3 - i - j] = b[k1], b[k2], 0.0
             ex, ey, nx, ny = _edge(g, i, j, layout)
             vx, vy = along * ex + across * nx, along * ey + across * ny
             f = g
             for k in range(3):
-                b[k] = carried[k]
+                b[k] = moved[k]
         total = b[0] + b[1] + b[2]
         end_face[p] = f
         for k in range(3):

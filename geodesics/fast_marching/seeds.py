@@ -51,7 +51,7 @@ def seeds(metric: Metric, points: SurfacePoints) -> Seeds:
 
 
 def _followed(metric: Metric, row: Integers, vertices: Integers, weights: Floats) -> tuple[Integers, Floats]:
-    """Row and weights in the triangulation marched, after its edges were flipped; row -1 where that is not known."""
+    """Row and weights in the triangulation marched over, after edge flips; row -1 where the point was not located."""
     own, grid = glued_faces(metric.mesh), triangulation(metric)
     moved = np.flatnonzero((row >= 0) & (grid.faces[row] != vertices).any(axis=1))
     if len(moved) == 0 or metric.conformal_factor is None:

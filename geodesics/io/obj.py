@@ -51,8 +51,8 @@ def _corners(row: Row, defined: int, n_vertices: int, path: Path) -> list[int]:
 
 
 def _check_declared(data: bytes, n_vertices: int, n_faces: int, path: Path) -> None:
-    found = {b"vertices": n_vertices, b"faces": n_faces}
+    counts = {b"vertices": n_vertices, b"faces": n_faces}
     declared = {name.lower(): int(number) for name, number in _DECLARED.findall(data)}
     for name, number in declared.items():
-        if found[name] < number:
-            raise TruncatedFile(f"{path}: {number} {name.decode()} are declared in a comment, {found[name]} found")
+        if counts[name] < number:
+            raise TruncatedFile(f"{path}: {number} {name.decode()} are declared in a comment, {counts[name]} found")

@@ -11,7 +11,7 @@ from geodesics.io.truncation import refuse_cut_face
 
 
 def tosca_paths(path: Path) -> tuple[Path, Path]:
-    """The two files of a TOSCA shape, from either of them or their common stem; case of the suffix as found."""
+    """The two files of a TOSCA shape, from either of them or their common stem; the case of the suffix stays."""
     stem = path.with_suffix("") if path.suffix.lower() in (".vert", ".tri") else path
     upper = path.suffix.isupper()
     vert, tri = (".VERT", ".TRI") if upper else (".vert", ".tri")

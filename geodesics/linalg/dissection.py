@@ -70,6 +70,6 @@ def _has_neighbour(matrix: sp.csr_matrix, rows: Integers, side: Integers, label:
     count = matrix.indptr[rows + 1] - start
     end = np.cumsum(count)
     entry = np.arange(end[-1]) + np.repeat(start - end + count, count)
-    found = np.zeros(len(rows), dtype=bool)
-    found[np.repeat(np.arange(len(rows)), count)[side[matrix.indices[entry]] == label]] = True
-    return found
+    linked = np.zeros(len(rows), dtype=bool)
+    linked[np.repeat(np.arange(len(rows)), count)[side[matrix.indices[entry]] == label]] = True
+    return linked

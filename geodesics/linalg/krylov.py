@@ -25,7 +25,7 @@ class KrylovBasis:
     def __init__(self, n: int, block: int, capacity: int, loss: float) -> None:
         """Room for `capacity` columns of length n, whose inner products stay at about `loss` or below."""
         self.size = 0
-        """Columns whose images are known."""
+        """Columns whose images have been taken in."""
         self._block, self._capacity, self._loss = block, capacity, loss
         self._random = np.random.default_rng(0)
         self._columns = np.empty((n, capacity // _SHARE + 2 * block), order="F")
@@ -45,22 +45,22 @@ class KrylovBasis:
 
     def grow(self, image: Floats) -> None:
         """Extend the basis by the image (n, b) of the last block; the image is overwritten."""
-        b, known = self._block, self.size
+        b, before = self._block, self.size
         self.size += b
         if self.size + b > self._columns.shape[1]:
             wider = np.empty((len(image), self._capacity + b), order="F")
             wider[:, : self.size] = self._columns[:, : self.size]
             self._columns = wider
         length = np.linalg.norm(image, axis=0).max()
-        near = self._columns[:, max(known - b, 0) : self.size]
+        near = self._columns[:, max(before - b, 0) : self.size]
         overlap = _removed(image, near)
         overlap += _removed(image, near)
-        self._projected[known : self.size, known : self.size] = overlap[-b:]
+        self._projected[before : self.size, before : self.size] = overlap[-b:]
         block, self._link = self._orthonormal(image, length)
         self._columns[:, self.size : self.size + b] = block
-        self._projected[self.size : self.size + b, known : self.size] = self._link
+        self._projected[self.size : self.size + b, before : self.size] = self._link
         self._since += 1
-        if self._since >= self._period and known > 0:
+        if self._since >= self._period and before > 0:
             self._reorthogonalise()
 
     def ritz(self, first: int, last: int) -> tuple[Floats, Floats, Floats]:

@@ -37,7 +37,7 @@ def remesh(mesh: Mesh, target_vertices: int, *, iterations: int = 10) -> Mesh:
     MeshError
         When it fails.
     ValueError
-        When fewer than 4 vertices are asked for.
+        When `target_vertices` is less than 4.
 
     See Also
     --------

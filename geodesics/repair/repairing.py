@@ -87,11 +87,11 @@ def repair(mesh: Mesh, *, weld: bool = False, cut: bool = False, largest: bool =
         faces = of_vertex[faces]
         _note(notes, "W219", np.flatnonzero(of_vertex != np.arange(mesh.n_vertices)), "vertices welded")
     kept = np.arange(len(faces))
-    for code, found, sentence in (
+    for code, find, sentence in (
         ("W202", degenerate_faces, "faces that name a vertex twice removed"),
         ("W201", repeated_faces, "repeated faces removed"),
     ):
-        bad = found(Mesh(mesh.vertices, faces[kept]))
+        bad = find(Mesh(mesh.vertices, faces[kept]))
         _note(notes, code, kept[bad], sentence)
         kept = kept[~bad]
     vertex, clean = _compact(np.arange(mesh.n_vertices), mesh.vertices, faces[kept])
@@ -128,8 +128,8 @@ def inverse_index(index: Integers, n: int) -> Integers:
         Places in `index`; -1 for what does not occur.
     """
     place = np.full(n, -1, dtype=np.int64)
-    known = np.flatnonzero(index >= 0)[::-1]
-    place[index[known]] = known
+    given = np.flatnonzero(index >= 0)[::-1]
+    place[index[given]] = given
     return place
 
 

@@ -1,4 +1,4 @@
-"""How faces hang together: edges, components, orientation, invariants."""
+"""How faces are connected: edges, components, orientation, invariants."""
 
 from __future__ import annotations
 

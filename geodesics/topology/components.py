@@ -1,4 +1,4 @@
-"""How the faces of a mesh hang together: boundary and connected components."""
+"""How faces are connected: boundary and connected components."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Edges of a mesh, whatever its defects: who shares which, and which way it runs."""
+"""Edges of a mesh, whatever its defects: which faces share them, and in which direction they run."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def degenerate_faces(mesh: Mesh) -> Bools:
 
 
 def face_components(mesh: Mesh) -> Integers:
-    """Component of every face, shape (m,), where faces that share an edge of exactly two faces hang together."""
+    """Component of every face, shape (m,), where faces that share an edge of exactly two faces are connected."""
     first, second = edges(mesh).pairs()
     return components(first // 3, second // 3, mesh.n_faces)
 
@@ -77,7 +77,7 @@ def face_components(mesh: Mesh) -> Integers:
 def corner_fans(mesh: Mesh) -> Integers:
     """Which fan around its vertex each corner belongs to, shape (m, 3), numbered over the whole mesh.
 
-    Corners of one vertex are in one fan when their faces share an edge at that vertex; a vertex of two fans is not
+    Corners of one vertex are in one fan when their faces share an edge at that vertex; a vertex of several fans is not
     manifold.
     """
     table = edges(mesh)

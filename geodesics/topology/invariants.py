@@ -1,4 +1,4 @@
-"""What bending and stretching leave as it is: components, boundary loops, Euler characteristic, genus."""
+"""What bending and stretching do not change: components, boundary loops, Euler characteristic, genus."""
 
 from __future__ import annotations
 

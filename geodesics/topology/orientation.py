@@ -1,4 +1,4 @@
-"""Which way round the corners of faces run: consistency, and outward for closed surfaces."""
+"""The orientation of faces: consistent, and outward for closed surfaces."""
 
 from __future__ import annotations
 
@@ -67,8 +67,8 @@ def orient_faces(mesh: Mesh) -> Mesh:
     --------
     geodesics.repair.repair : Orients faces as well.
     """
-    found = orientation(mesh)
-    turn = found.turn ^ found.inward
+    sides = orientation(mesh)
+    turn = sides.turn ^ sides.inward
     if not turn.any():
         return mesh
     return Mesh(mesh.vertices, np.where(turn[:, None], mesh.faces[:, [0, 2, 1]], mesh.faces))

@@ -50,7 +50,7 @@ def progress_bar(title: str, *, remaining: bool = False) -> Iterator[Progress]:
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-    from geodesics.compiling import told_of_compiling
+    from geodesics.compiling import reporting_compilation
 
     console = Console(stderr=True)
     left = (TextColumn("left"), TimeRemainingColumn()) if remaining else ()
@@ -68,7 +68,7 @@ def progress_bar(title: str, *, remaining: bool = False) -> Iterator[Progress]:
         def compiling(begins: bool) -> None:
             bars.update(task, description=f"{at} ({COMPILING})" if begins else at, refresh=begins)
 
-        with told_of_compiling(compiling):
+        with reporting_compilation(compiling):
             yield progress
 
 

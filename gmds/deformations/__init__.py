@@ -1,4 +1,4 @@
-"""Known deformations with known truth, one a file.
+"""Deformations with known truth, one a file.
 
 Each takes a `Mesh` and gives the deformed `Mesh` with the truth: one point of the new mesh (`SurfacePoints`) per vertex
 of the old one. `compose` chains them; `deformed` makes those of Table 1 in five strengths. Random choices take a seed

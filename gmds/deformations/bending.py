@@ -1,4 +1,4 @@
-"""Another pose: limbs bent without stretching, as nearly as can be."""
+"""Another pose: limbs bent with as little stretching as possible."""
 
 from __future__ import annotations
 
@@ -12,10 +12,32 @@ from gmds.deformations.truths import moved
 
 
 def bending(mesh: Mesh, angle: float = 30.0, *, count: int = 3, rng: int = 0) -> tuple[Mesh, SurfacePoints]:
-    """The mesh with up to `count` limbs turned by `angle` degrees about random axes, and where its vertices went.
+    """Turn some limbs, with as little stretching as possible.
 
-    The outer part of each limb is turned about the limb's middle; the rest follows with as little change of
-    edge lengths as possible (`fit`).
+    The outer part of each limb is rotated about the limb's middle by a random axis; the rest follows so that edge
+    lengths change as little as possible (see `gmds.deformations.fitting.fit`).
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh, of n vertices.
+    angle : float
+        Degrees.
+    count : int
+        Limbs that are turned, at most.
+    rng : int
+        Seed of the random choices.
+
+    Returns
+    -------
+    mesh : Mesh
+        The deformed mesh.
+    truth : SurfacePoints
+        n points of it, one per vertex of the old mesh.
+
+    See Also
+    --------
+    local_scaling : Limbs that grow.
     """
     random = np.random.default_rng(rng)
     tips, middle = extremities(mesh)

@@ -1,4 +1,4 @@
-"""Positions that turn every neighbourhood rigidly and stretch its edges by given factors, as nearly as can be."""
+"""Positions that rotate every neighbourhood rigidly and stretch its edges by given factors, as nearly as possible."""
 
 from __future__ import annotations
 
@@ -13,12 +13,14 @@ from geodesics.arrays import Floats, Integers
 def fit(
     mesh: Mesh, log_scale: Floats, handles: Integers, places: Floats, *, iterations: int = 100, tol: float = 1e-5
 ) -> Floats:
-    """Vertices (n, 3) least in sum_i sum_{e near i} w_e |x_e - exp(u_e) R_i p_e|^2 over x and rotations R_i.
+    r"""Vertices (n, 3) that minimise an as-rigid-as-possible energy with scaled edges over positions x and rotations R.
 
-    p_e and x_e are the edges of the faces at vertex i before and after, u_e = (u_a + u_b) / 2 for the ends a, b of
-    e, w_e cotangent weights: "as rigid as possible" (Sorkine and Alexa 2007, with rims) with scaled edges.
-    Handles (k,) are held at `places` (k, 3). Rotations and positions are found in turn until no vertex moves more
-    than `tol` of the extent, at most `iterations` times.
+    .. math:: \sum_i \sum_{e \text{ near } i} w_e \, | x_e - e^{u_e} R_i p_e |^2
+
+    :math:`p_e` and :math:`x_e` are the edges of the faces at vertex i before and after, :math:`u_e = (u_a + u_b) / 2`
+    for the ends a, b of e, and :math:`w_e` cotangent weights (Sorkine and Alexa 2007, with rims). Handles (k,) are held
+    at `places` (k, 3). Rotations and positions are optimised in turn until no vertex moves more than `tol` of the
+    extent, at most `iterations` times.
     """
     n, faces, p = mesh.n_vertices, mesh.faces, mesh.vertices
     start, end = faces[:, [1, 2, 0]], faces[:, [2, 0, 1]]

@@ -7,7 +7,32 @@ from gmds.deformations.truths import moved
 
 
 def global_scale(mesh: Mesh, factor: float) -> tuple[Mesh, SurfacePoints]:
-    """The mesh times `factor` > 0 about the origin, and where its vertices went."""
+    """Scale the whole surface about the origin.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh, of n vertices.
+    factor : float
+        Positive.
+
+    Returns
+    -------
+    mesh : Mesh
+        The deformed mesh.
+    truth : SurfacePoints
+        n points of it, one per vertex of the old mesh.
+
+    Raises
+    ------
+    ValueError
+        When the factor is not positive.
+
+    See Also
+    --------
+    similarity : With a rotation and a translation.
+    local_scaling : From place to place differently.
+    """
     if not factor > 0:
         raise ValueError(f"factor must be positive, not {factor}")
     return moved(mesh, factor * mesh.vertices)

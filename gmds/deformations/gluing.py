@@ -1,4 +1,4 @@
-"""Parts that touch become one: a change of topology."""
+"""A change of topology: parts that touch become one."""
 
 from __future__ import annotations
 
@@ -9,10 +9,26 @@ from gmds.deformations.limbs import edge_distances
 
 
 def gluing(mesh: Mesh, count: int = 1, *, rng: int = 0) -> tuple[Mesh, SurfacePoints]:
-    """The mesh with up to `count` pairs of vertices, near in space and far along the surface, made one vertex each.
+    """Join pairs of vertices that are near in space and far along the surface.
 
-    Pairs are those with the least ratio of distance in space to distance along edges, among 200 random vertices and
-    all others of their connected piece. The two vertices of a pair meet half way; the later one leaves the numbering.
+    Pairs are those with the least ratio of distance in space to distance along edges, among 200 random vertices and all
+    others of their component. The two vertices of a pair meet half way; the later one leaves the numbering.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh, of n vertices.
+    count : int
+        Pairs that are joined, at most.
+    rng : int
+        Seed of the random choices.
+
+    Returns
+    -------
+    mesh : Mesh
+        The deformed mesh.
+    truth : SurfacePoints
+        n points of it, one per vertex of the old mesh.
     """
     random = np.random.default_rng(rng)
     some = random.permutation(mesh.n_vertices)[:200]

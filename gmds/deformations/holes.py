@@ -1,4 +1,4 @@
-"""Pieces cut out."""
+"""Holes cut into the surface."""
 
 from __future__ import annotations
 
@@ -11,12 +11,34 @@ from gmds.deformations.limbs import edge_distances
 
 
 def holes(mesh: Mesh, count: int = 5, *, radius: float = 0.05, rng: int = 0) -> tuple[Mesh, SurfacePoints]:
-    """The mesh without the vertices nearer than `radius` sqrt(area) to `count` random ones; radius 0 cuts single rings.
+    """Cut holes around random vertices.
 
-    Vertices at which two holes meet go as well, and only the largest connected piece is kept. Vertices that are left
-    keep their order and their truth is exact; a lost vertex gets the point of the rest closest in space, at a distance
-    from its own place that says that it is lost.
-    Raises ValueError when nothing is left.
+    Vertices at which two holes meet are removed as well, and only the component of the most faces is kept. Remaining
+    vertices keep their order, and their truth is exact; a removed vertex gets the remaining point closest in space, and
+    the distance between the two says that it was removed.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh, of n vertices.
+    count : int
+        Holes.
+    radius : float
+        In units of the square root of the area, along edges; 0 removes single vertices with their ring of faces.
+    rng : int
+        Seed of the random choices.
+
+    Returns
+    -------
+    mesh : Mesh
+        The deformed mesh.
+    truth : SurfacePoints
+        n points of it, one per vertex of the old mesh.
+
+    Raises
+    ------
+    ValueError
+        When nothing is left.
     """
     random = np.random.default_rng(rng)
     centres = random.permutation(mesh.n_vertices)[:count]
@@ -36,7 +58,7 @@ def holes(mesh: Mesh, count: int = 5, *, radius: float = 0.05, rng: int = 0) -> 
 
 
 def _without_bow_ties(faces: Integers, before: Integers) -> Integers:
-    """The faces without those at vertices where sheets meet now and did not before."""
+    """The faces without those at vertices that are not manifold now and were before."""
     import igl
 
     fine = np.asarray(igl.is_vertex_manifold(before))

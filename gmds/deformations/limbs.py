@@ -1,4 +1,4 @@
-"""Tips of limbs, for choosing what to bend or to scale; distances along edges are good enough for that."""
+"""Tips of limbs, for choosing what to bend or to scale; distances along edges are accurate enough for that."""
 
 from __future__ import annotations
 

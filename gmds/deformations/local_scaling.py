@@ -15,27 +15,65 @@ from gmds.deformations.truths import moved
 
 
 def local_scaling(mesh: Mesh, log_scale: ArrayLike) -> tuple[Mesh, SurfacePoints]:
-    """The mesh with edge ij as nearly l_ij exp((u_i + u_j) / 2) long as space allows, and where its vertices went.
+    r"""Scale the surface differently from place to place: the local scales of the experiments (sec. 5, Fig. 2).
 
-    These are the local scales of the experiments (sec. 5, Fig. 2): isotropic, different from place to place.
-    `log_scale` u (n,) is the natural logarithm of the wanted scale at each vertex. No surface in space has exactly
-    these lengths in general: `achieved_log_scale` measures what came of it. A constant u is a similarity, exactly.
-    Raises `BadShape` when u has another shape or is not finite.
+    Edge ij becomes as nearly as possible in space
+
+    .. math:: l_{ij} \exp \frac{u_i + u_j}{2}
+
+    long. In general no surface in space has exactly these lengths: `achieved_log_scale` measures the result. A constant
+    u is a similarity, exactly.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh, of n vertices.
+    log_scale : array_like of shape (n,)
+        u, the natural logarithm of the wanted scale at each vertex.
+
+    Returns
+    -------
+    mesh : Mesh
+        The deformed mesh.
+    truth : SurfacePoints
+        n points of it, one per vertex of the old mesh.
+
+    Raises
+    ------
+    BadShape
+        E108 when u has another shape or is not finite.
+
+    See Also
+    --------
+    branch_log_scale : A field u that makes limbs grow.
     """
     u = np.asarray(log_scale, dtype=np.float64)
     if u.shape != (mesh.n_vertices,) or not np.isfinite(u).all():
         raise BadShape(f"log_scale must be {mesh.n_vertices} finite numbers, one per vertex; its shape is {u.shape}")
     centre = mesh.vertices.mean(axis=0)
-    base = u.mean()  # the uniform part is applied exactly, the fit sees only the differences
+    base = u.mean()  # the uniform part is applied exactly, and only the rest is fitted
     none = np.zeros(0, dtype=np.int64)
     shape = fit(mesh, u - base, none, np.zeros((0, 3)), iterations=200)
     return moved(mesh, centre + np.exp(base) * (shape - centre))
 
 
 def achieved_log_scale(before: Mesh, after: Mesh) -> Floats:
-    """Half the logarithm of the growth of the area around each vertex (n,), for meshes with the same faces.
+    """Half the logarithm of the growth of the area around each vertex.
 
-    Raises `BadShape` when the faces differ.
+    Parameters
+    ----------
+    before, after : Mesh
+        Two meshes of n vertices with the same faces.
+
+    Returns
+    -------
+    array of shape (n,)
+        The logarithm of the local scale.
+
+    Raises
+    ------
+    BadShape
+        E108 when the faces differ.
     """
     if not np.array_equal(before.faces, after.faces):
         raise BadShape("the two meshes must have the same faces")
@@ -43,10 +81,28 @@ def achieved_log_scale(before: Mesh, after: Mesh) -> Floats:
 
 
 def branch_log_scale(mesh: Mesh, factor: float, *, count: int = 2, reach: float = 0.5, rng: int = 0) -> Floats:
-    """A smooth field u (n,): `count` extremities grow by `factor`, every second shrinks by it.
+    """A smooth field of scale for `local_scaling`: some limbs grow, every second of them shrinks.
 
-    The field falls from its full value at an extremity to zero over `reach` times the distance to the middle of the
-    surface; fields that overlap add up. Extremities are chosen at random from those found.
+    The field falls from its full value at the tip of a limb to zero over `reach` times the distance to the middle of
+    the surface; fields that overlap add up. The limbs are chosen at random.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh, of n vertices.
+    factor : float
+        Scale at the tips, or its inverse; positive.
+    count : int
+        Limbs.
+    reach : float
+        Share of the distance to the middle.
+    rng : int
+        Seed of the random choices.
+
+    Returns
+    -------
+    array of shape (n,)
+        The natural logarithm of the scale.
     """
     tips, middle = extremities(mesh)
     chosen = np.random.default_rng(rng).permutation(tips)[:count]

@@ -9,7 +9,28 @@ from gmds.deformations.truths import moved
 
 
 def noise(mesh: Mesh, strength: float = 0.2, *, rng: int = 0) -> tuple[Mesh, SurfacePoints]:
-    """Vertices moved along their normals by Gaussian noise, standard deviation `strength` mean edge lengths."""
+    """Move every vertex along its normal by Gaussian noise.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh, of n vertices.
+    strength : float
+        Standard deviation in mean edge lengths.
+    rng : int
+        Seed of the random choices.
+
+    Returns
+    -------
+    mesh : Mesh
+        The deformed mesh.
+    truth : SurfacePoints
+        n points of it, one per vertex of the old mesh.
+
+    See Also
+    --------
+    shot_noise : Few vertices, but far.
+    """
     step = strength * mean_edge_length(mesh)
     height = np.random.default_rng(rng).normal(0, step, mesh.n_vertices)
     return moved(mesh, mesh.vertices + height[:, None] * vertex_normals(mesh))

@@ -1,4 +1,4 @@
-"""The same surface cut into other triangles."""
+"""Another triangulation of the same surface."""
 
 from __future__ import annotations
 
@@ -21,14 +21,39 @@ def remeshing(
     remesher: Callable[[Mesh], Mesh] | None = None,
     rng: int = 0,
 ) -> tuple[Mesh, SurfacePoints]:
-    """Another triangulation of the surface, and the points of it closest to the old vertices.
+    """Another triangulation of the surface; the truth is the point of it closest to each old vertex.
 
-    By default with about `n_vertices` (as many as before): the mesh is subdivided until it has four times as many,
-    its vertices are shaken along the surface, and the shortest edges collapse. Even triangles cut off what is thinner
-    than they are wide, such as fingers; `adaptive` ones, small where the surface is thin, keep it. A `remesher`, for
-    instance `lambda m: geodesics.repair.remesh(m, 5000)`, replaces all that. New triangles are chords of the old
-    surface, so the truth is off by about (edge length)^2 / (8 curvature radius).
-    Raises `NotManifold` (E110) where sheets meet in an edge or a vertex, `ValueError` below 12 vertices.
+    By default the mesh is subdivided until it has four times as many vertices as wanted, its vertices are shaken along
+    the surface, and the shortest edges collapse. New triangles are chords of the old surface, so the truth is off by
+    about (edge length)^2 / (8 curvature radius).
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh, of n vertices.
+    n_vertices : int, optional
+        About how many vertices to make; as many as before by default.
+    adaptive : bool
+        Whether triangles are small where the surface is thin. Even triangles cut off what is thinner than they are
+        wide, such as fingers.
+    remesher : callable, optional
+        Mesh -> Mesh, for instance ``lambda m: geodesics.repair.remesh(m, 5000)``, in place of all that.
+    rng : int
+        Seed of the random choices.
+
+    Returns
+    -------
+    mesh : Mesh
+        The deformed mesh.
+    truth : SurfacePoints
+        n points of it, one per vertex of the old mesh.
+
+    Raises
+    ------
+    NotManifold
+        E110 where sheets meet in an edge or a vertex.
+    ValueError
+        When fewer than 12 vertices are wanted.
     """
     if remesher is not None:
         result = remesher(mesh)

@@ -1,4 +1,4 @@
-"""Turned, moved and resized at random."""
+"""A random similarity: rotation, translation and scale."""
 
 from __future__ import annotations
 
@@ -10,7 +10,29 @@ from gmds.deformations.truths import moved
 
 
 def similarity(mesh: Mesh, *, largest_scale: float = 1.0, rng: int = 0) -> tuple[Mesh, SurfacePoints]:
-    """The mesh under a random rotation, a shift of up to its extent, and a scale from 1/largest to largest."""
+    """Move the mesh by a random rotation, translation and scale.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh, of n vertices.
+    largest_scale : float
+        The scale is between 1 / largest_scale and largest_scale, uniform in its logarithm; at least 1.
+    rng : int
+        Seed of the random choices.
+
+    Returns
+    -------
+    mesh : Mesh
+        The deformed mesh.
+    truth : SurfacePoints
+        n points of it, one per vertex of the old mesh.
+
+    Raises
+    ------
+    ValueError
+        When `largest_scale` is less than 1.
+    """
     if not largest_scale >= 1:
         raise ValueError(f"largest_scale must be at least 1, not {largest_scale}")
     random = np.random.default_rng(rng)

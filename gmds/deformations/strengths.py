@@ -16,31 +16,58 @@ from gmds.deformations.local_scaling import branch_log_scale, local_scaling
 from gmds.deformations.noise import noise
 from gmds.deformations.shot_noise import shot_noise
 
-STRENGTHS = (1, 2, 3, 4, 5)
+STRENGTHS = (1, 2, 3, 4, 5)  # as in Table 1
 _NUMBERS = {"int": int, "float": float, "int | None": int}  # by annotation, as the modules write it
 
 
 def local_scale(mesh: Mesh, factor: float = 1.6, *, count: int = 4, rng: int = 0) -> tuple[Mesh, SurfacePoints]:
-    """The mesh with `count` limbs grown and shrunk, in turn, by `factor`: `local_scaling` by a `branch_log_scale`."""
+    """Limbs grown and shrunk in turn: `local_scaling` by a `branch_log_scale`.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh, of n vertices.
+    factor : float
+        Scale at the tips, or its inverse.
+    count : int
+        Limbs.
+    rng : int
+        Seed of the random choices.
+
+    Returns
+    -------
+    mesh : Mesh
+        The deformed mesh.
+    truth : SurfacePoints
+        n points of it, one per vertex of the old mesh.
+    """
     return local_scaling(mesh, branch_log_scale(mesh, factor, count=count, rng=rng))
 
 
 @dataclass(frozen=True)
 class Kind:
-    """A class of deformations: what makes them, and each parameter's value at the strengths 1 to 5."""
+    """A class of deformations of Table 1.
+
+    Parameters
+    ----------
+    function : callable
+        (Mesh, **parameters) -> (Mesh, SurfacePoints).
+    table : mapping
+        The value of each parameter at the strengths 1 to 5.
+    """
 
     function: Callable[..., tuple[Mesh, SurfacePoints]]
     table: Mapping[str, tuple[float, ...]]
 
     def parameters(self, strength: int) -> dict[str, float]:
-        """The parameters at a strength from 1 to 5; ValueError for another."""
+        """The parameters at a strength from 1 to 5; `ValueError` for another."""
         if strength not in STRENGTHS:
             raise ValueError(f"strength must be one of {', '.join(map(str, STRENGTHS))}, not {strength}")
         return {name: values[strength - 1] for name, values in self.table.items()}
 
     @property
     def types(self) -> dict[str, type]:
-        """The parameters that are numbers: int or float, by name."""
+        """The numeric parameters, by name: int or float."""
         parameters = inspect.signature(self.function).parameters.values()
         return {p.name: _NUMBERS[p.annotation] for p in parameters if p.name != "rng" and p.annotation in _NUMBERS}
 
@@ -71,10 +98,34 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
 
 
 def deformed(mesh: Mesh, kind: str, strength: int, rng: int = 0) -> tuple[Mesh, SurfacePoints]:
-    """The mesh under one of the `KINDS` of deformation at a strength from 1 to 5 (Table 1), and its truth.
+    """The mesh under one class of deformations of Table 1, and its truth.
 
-    The truth is one point of the new mesh per old vertex. `rng` chooses limbs, places and noise; the same seed at
-    another strength chooses the same ones. ValueError for an unknown kind or strength.
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh, of n vertices.
+    kind : str
+        One of isometry, topology, micro-holes, scale, local-scale, noise and shot-noise.
+    strength : int
+        From 1 to 5.
+    rng : int
+        Seed for limbs, places and noise; the same seed at another strength chooses the same ones.
+
+    Returns
+    -------
+    mesh : Mesh
+        The deformed mesh.
+    truth : SurfacePoints
+        n points of it, one per vertex of the old mesh.
+
+    Raises
+    ------
+    ValueError
+        For an unknown kind or strength.
+
+    See Also
+    --------
+    gmds.deformations.compose : Several deformations as one.
     """
     if kind not in KINDS:
         raise ValueError(f"kind must be one of {', '.join(KINDS)}, not {kind!r}")

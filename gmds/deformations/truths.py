@@ -1,4 +1,4 @@
-"""Truth that travels: where every vertex of a mesh is on its deformed copy."""
+"""Truth along deformations: where every vertex of a mesh is on its deformed copy."""
 
 from __future__ import annotations
 
@@ -23,10 +23,22 @@ def moved(mesh: Mesh, vertices: ArrayLike) -> tuple[Mesh, SurfacePoints]:
 
 
 def carried(points: SurfacePoints, truth: SurfacePoints) -> SurfacePoints:
-    """Points (p) of a mesh carried to its deformed copy by the truth of the mesh's vertices.
+    """Points of a mesh on its deformed copy, given the truth of the mesh's vertices.
 
     Exact where the copy has the same faces and vertex i is still vertex i; else the surface point closest in space to
     the weighted mean of the images of the face's corners.
+
+    Parameters
+    ----------
+    points : SurfacePoints
+        p points of the mesh.
+    truth : SurfacePoints
+        One point of the copy per vertex of the mesh.
+
+    Returns
+    -------
+    SurfacePoints
+        p points of the copy.
     """
     same_faces = np.array_equal(points.mesh.faces, truth.mesh.faces)
     if same_faces and np.array_equal(truth.positions, truth.mesh.vertices):
@@ -36,7 +48,18 @@ def carried(points: SurfacePoints, truth: SurfacePoints) -> SurfacePoints:
 
 
 def compose(*deformations: Deformation) -> Deformation:
-    """The deformations one after another, first to last, as one deformation with its truth carried through."""
+    """Several deformations, one after another, as one.
+
+    Parameters
+    ----------
+    *deformations : callable
+        Each Mesh -> (Mesh, SurfacePoints); the first is applied first.
+
+    Returns
+    -------
+    callable
+        Mesh -> (Mesh, SurfacePoints), with the truth of the first mesh's vertices on the last mesh.
+    """
 
     def together(mesh: Mesh) -> tuple[Mesh, SurfacePoints]:
         result, truth = moved(mesh, mesh.vertices)

@@ -27,7 +27,7 @@ class Warmth:
 def warm_up(progress: Callable[[str, float], None] | None = None) -> Warmth:
     """Compile all kernels by a tiny match and a few geodesic distances; once they are kept, this takes seconds."""
     from geodesics import GeodesicDistance, SurfacePoints, eigenpairs, farthest_point_sampling, scale_invariant
-    from geodesics.compiling import cache_folder, told_of_compiling
+    from geodesics.compiling import cache_folder, reporting_compilation
     from gmds.matching.pipeline import match
     from gmds.shapes import quadruped
 
@@ -38,7 +38,7 @@ def warm_up(progress: Callable[[str, float], None] | None = None) -> Warmth:
         nonlocal compiled
         compiled += begins
 
-    with told_of_compiling(compiling):
+    with reporting_compilation(compiling):
         source, target = (quadruped(pose, n_vertices=VERTICES) for pose in ("stand", "walk"))
         distance = GeodesicDistance(scale_invariant(source))
         distance.field(SurfacePoints(source, np.array([0]), np.full((1, 3), 1 / 3)))

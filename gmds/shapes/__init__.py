@@ -12,9 +12,14 @@ __all__ = ["Figure", "Move", "demo_pair", "humanoid", "humanoid_poses", "quadrup
 
 
 def demo_pair() -> tuple[Mesh, Mesh, SurfacePoints]:
-    """An animal, the same in another pose with its head twice as big and triangulated anew, and the truth.
+    """The pair of `gmds demo`: an animal, and the same animal in another pose with its head twice as big.
 
-    The truth is one point of the target per vertex of the source.
+    Returns
+    -------
+    source, target : Figure
+        Two meshes with different triangulations.
+    truth : SurfacePoints
+        One point of the target per vertex of the source.
     """
     source = quadruped()
     target = quadruped("walk", head_scale=2.0, seed=1)

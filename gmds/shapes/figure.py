@@ -1,4 +1,4 @@
-"""A posed body as a mesh that remembers where its vertices are on the undeformed body."""
+"""A posed body as a mesh whose vertices have known places on the undeformed body."""
 
 from __future__ import annotations
 
@@ -16,7 +16,21 @@ from gmds.shapes.skeleton import Body, Move
 
 
 class Figure(Mesh):
-    """A `Mesh` with `rest` (n, 3), the places of its vertices on the undeformed body they share with other figures."""
+    """A mesh of a built-in body, with the places of its vertices on the undeformed body.
+
+    Parameters
+    ----------
+    vertices : array_like of shape (n, 3)
+        Positions.
+    faces : array_like of shape (m, 3)
+        Triangles.
+    rest : array_like of shape (n, 3)
+        The places of the vertices on the undeformed body, which figures of the same body share.
+
+    See Also
+    --------
+    truth : The correspondence of two figures.
+    """
 
     rest: Floats
 
@@ -33,8 +47,8 @@ class Figure(Mesh):
 def figure(body: Body, moves: Mapping[str, Move], *, spacing: float, n_vertices: int, seed: int) -> Figure:
     """The body after `moves`, triangulated evenly in its new pose with `n_vertices` vertices.
 
-    Each vertex lies on the smooth surface: found on a fine posed mesh, carried back to the undeformed body, moved
-    onto its zero set, and posed again.
+    Each vertex lies on the smooth surface: it is taken from a fine posed mesh, mapped back to the undeformed body,
+    projected onto its zero set, and posed again.
     """
     fine_rest, fine_faces = fine_surface(body, spacing, seed)
     if not 50 <= n_vertices < len(fine_rest):
@@ -46,14 +60,27 @@ def figure(body: Body, moves: Mapping[str, Move], *, spacing: float, n_vertices:
 
 
 def truth(source: Figure, target: Figure, *, mirrored: bool = False) -> SurfacePoints:
-    """The point of the target that is the same place of the body, for each source vertex: (n,) points.
+    """The exact correspondence of two figures of the same body.
 
-    Both meshes carry their vertices' places on one undeformed smooth surface, so the source's place is looked up
-    among the target's triangles there. A place is on the smooth surface and a triangle is a chord below it, so the
-    answer is off by about (edge length)^2 / (8 curvature radius). Measured on `demo_pair` against the place on the
-    smooth target: 2.5 % of an edge on average, a third of an edge at worst; 0.04 on the x100 scale of the protocol.
-    `mirrored` gives the left/right flipped counterpart (y -> -y of the undeformed body).
+    Both meshes know their vertices' places on one undeformed smooth surface, so the source's place is looked up among
+    the target's triangles there. A place is on the smooth surface and a triangle is a chord below it, so the answer is
+    off by about (edge length)^2 / (8 curvature radius). Measured on `demo_pair` against the place on the smooth target:
+    2.5 % of an edge on average, a third of an edge at worst; 0.04 on the x100 scale of the protocol.
+
+    Parameters
+    ----------
+    source : Figure
+        n vertices.
+    target : Figure
+        Of the same body.
+    mirrored : bool
+        Whether to give the counterpart on the other side (y -> -y of the undeformed body).
+
+    Returns
+    -------
+    SurfacePoints
+        n points of the target.
     """
     places = source.rest * ([1, -1, 1] if mirrored else 1)
-    found = SurfacePoints.closest(Mesh(target.rest, target.faces), places)
-    return SurfacePoints(target, found.face, found.barycentric)
+    there = SurfacePoints.closest(Mesh(target.rest, target.faces), places)
+    return SurfacePoints(target, there.face, there.barycentric)

@@ -106,10 +106,32 @@ def humanoid(
     n_vertices: int = 5000,
     seed: int = 0,
 ) -> Figure:
-    """A person of height 1.8 facing +x, z up: closed, genus 0, `n_vertices` vertices.
+    """A person of height 1.8 that faces +x, with z up.
 
-    `pose` is a name in `humanoid_poses` or joint names with what they do; scales enlarge whole branches; `seed`
-    chooses the triangulation. ValueError for an unknown pose, joint or a scale that is not positive.
+    Parameters
+    ----------
+    pose : str or mapping
+        A name in `humanoid_poses`, or the moves of joints by their names.
+    head_scale, hand_scale, leg_scale : float
+        Scales of whole branches of the body; 1 leaves them as they are.
+    n_vertices : int
+        Number of vertices n.
+    seed : int
+        Chooses the triangulation.
+
+    Returns
+    -------
+    Figure
+        Closed and of genus 0.
+
+    Raises
+    ------
+    ValueError
+        For an unknown pose or joint, a scale that is not positive, or too few or too many vertices.
+
+    See Also
+    --------
+    truth : The correspondence of two of them.
     """
     moves = scaled(POSES, pose, {"head": head_scale, "wrist_": hand_scale, "hip_": leg_scale})
     return figure(BODY, moves, spacing=0.0145, n_vertices=n_vertices, seed=seed)

@@ -11,7 +11,9 @@ from geodesics.arrays import Floats, Integers
 from gmds.shapes.implicit import blend
 from gmds.shapes.skeleton import Body
 
-_COARSE = 4  # fine cells along one cell of the first, coarse look
+_COARSE = (
+    4  # fine cells along a cell of the first, coarse evaluation; saves time; values near the surface are exact with any
+)
 
 
 @lru_cache(maxsize=8)
@@ -48,7 +50,9 @@ def _corners(body: Body) -> Floats:
 
 
 def _values(body: Body, points: Floats, reach: float) -> Floats:
-    """The blended distance at grid points (x, y, z, 3), exact only where a coarse look finds the surface near."""
+    """The blended distance at grid points (x, y, z, 3), exact only where a coarse evaluation says that the surface is
+    near.
+    """
     half = _COARSE // 2
     coarse = points[half::_COARSE, half::_COARSE, half::_COARSE]
     look = blend(body.parts, coarse.reshape(-1, 3), body.blend_width).reshape(coarse.shape[:3])

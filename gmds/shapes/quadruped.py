@@ -108,10 +108,32 @@ def quadruped(
     n_vertices: int = 5000,
     seed: int = 0,
 ) -> Figure:
-    """A four-legged animal of shoulder height 1.2 looking along +x, z up: closed, genus 0, `n_vertices` vertices.
+    """A four-legged animal of shoulder height 1.2 that looks along +x, with z up.
 
-    `pose` is a name in `quadruped_poses` or joint names with what they do; scales enlarge whole branches; `seed`
-    chooses the triangulation. ValueError for an unknown pose, joint or a scale that is not positive.
+    Parameters
+    ----------
+    pose : str or mapping
+        A name in `quadruped_poses`, or the moves of joints by their names.
+    head_scale, ear_scale, leg_scale, tail_scale : float
+        Scales of whole branches of the body; 1 leaves them as they are.
+    n_vertices : int
+        Number of vertices n.
+    seed : int
+        Chooses the triangulation.
+
+    Returns
+    -------
+    Figure
+        Closed and of genus 0.
+
+    Raises
+    ------
+    ValueError
+        For an unknown pose or joint, a scale that is not positive, or too few or too many vertices.
+
+    See Also
+    --------
+    truth : The correspondence of two of them.
     """
     scales = {"head": head_scale, "ear_": ear_scale, "shoulder_": leg_scale, "hip_": leg_scale, "tail": tail_scale}
     return figure(BODY, scaled(POSES, pose, scales), spacing=0.025, n_vertices=n_vertices, seed=seed)

@@ -24,7 +24,15 @@ class Joint:
 
 @dataclass(frozen=True)
 class Move:
-    """What a joint does to its branch: turn by the rotation vector `turn` in degrees, grow by `scale`."""
+    """What a joint does to its branch of the body.
+
+    Parameters
+    ----------
+    turn : tuple of three floats
+        Rotation vector in degrees.
+    scale : float
+        Growth about the joint.
+    """
 
     turn: Point = (0, 0, 0)
     scale: float = 1.0
@@ -41,7 +49,7 @@ class Body:
 
     @cached_property
     def branches(self) -> Bools:
-        """Whether part j hangs on joint i or on one below it, shape (joints, parts)."""
+        """Whether part j belongs to joint i or to one below it, shape (joints, parts)."""
         index = {joint.name: i for i, joint in enumerate(self.joints)}
         member = np.zeros((len(self.joints), len(self.parts)), dtype=bool)
         for j, part in enumerate(self.parts):
@@ -56,7 +64,7 @@ class Body:
         return project(self.parts, x, self.blend_width)
 
     def membership(self, x: Floats) -> Floats:
-        """How much points (p, 3) belong to each joint's branch, in [0, 1], shape (joints, p)."""
+        """The weight, in [0, 1], with which points (p, 3) belong to each joint's branch, shape (joints, p)."""
         d = distances(self.parts, x)
         weight = np.exp((d.min(axis=0) - d) / self.skin_width)
         return self.branches @ (weight / weight.sum(axis=0))

@@ -33,7 +33,7 @@ def book(*pages: tuple[float, float, bool], lean: float = 3.0) -> Mesh:
 
 
 def together(mesh: Mesh) -> list[list[int]]:
-    """Faces that hang together."""
+    """Faces that are connected."""
     label = face_components(mesh)
     return [np.flatnonzero(label == part).tolist() for part in np.unique(label)]
 
