@@ -12,21 +12,35 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from geodesics.arrays import Bools, Floats, Integers
+from geodesics.arrays import Floats, Integers
 from geodesics.distance import Distance
 from geodesics.mesh import Mesh
 from geodesics.one_ring import one_ring_areas
 from geodesics.points import SurfacePoints
 from gmds.errors import MapError
+from gmds.maps.point_distances import distances_between
 from gmds.maps.point_map import PointMap
 
-PROTOCOL_POINTS = 125
-CHUNK = 64  # truth points marched at once, so that memory stays at CHUNK times the vertices
+PROTOCOL_POINTS = 125  # a convention: as many as all published figures of this project are of
 
 
 @dataclass(frozen=True)
 class ErrorSummary:
-    """Errors of one map: mean and median times 100, and the percentage within 0.05, 0.10 and 0.25."""
+    """Errors of one map by the protocol of the field.
+
+    Attributes
+    ----------
+    count : int
+        How many points were judged.
+    mean, median : float
+        Of the errors, times 100.
+    within_005, within_010, within_025 : float
+        Percentages of errors of at most 0.05, 0.10 and 0.25.
+
+    See Also
+    --------
+    summary : Makes it.
+    """
 
     count: int
     mean: float
@@ -43,14 +57,44 @@ def geodesic_error(
     *,
     distance: Distance | None = None,
 ) -> Floats:
-    """Geodesic distance from each mapped point to its true point over sqrt(target area): (p,) errors >= 0.
+    r"""Geodesic distance from each mapped point to its true point, over the root of the target's area.
 
-    `truth`: p points of the target, or p target vertex indices. `source_indices` (p,): which source vertices they
-    belong to; None means one truth point for every row. Rows that are not `valid` are judged like all others.
-    `distance`: geodesic in the embedded metric unless given (an exact one, say). Each distinct truth point costs one
-    march; its distances are linear on faces, except that a mapped point on a face that holds the true point is
-    measured straight. A mapped point that cannot be reached from the true one (another component) gets the largest
-    distance that can be reached. Raises `MapError` when rows do not fit or the truth is on another mesh.
+    .. math:: e_i = d_Y(\rho(x_i), y_i) / \sqrt{\mathrm{area}(Y)}
+
+    Parameters
+    ----------
+    answer : Correspondence or SurfacePoints
+        The map :math:`\rho` of n source vertices, or n mapped points. Points that are not `valid` are judged as well.
+    truth : SurfacePoints or array of shape (p,)
+        The true points :math:`y_i` on the target, or its vertices.
+    source_indices : array of shape (p,), optional
+        Which source vertices :math:`x_i` they belong to; without it there is a true point for every vertex.
+    distance : Distance, optional
+        What measures :math:`d_Y`, in units of length. Geodesics in the metric of space unless given.
+
+    Returns
+    -------
+    array of shape (p,)
+        Errors >= 0, without unit.
+
+    Raises
+    ------
+    MapError
+        E310, when rows do not fit or the truth is on another mesh.
+
+    See Also
+    --------
+    summary : The figures that are published.
+    error_curve : The share of points within every threshold.
+
+    Notes
+    -----
+    Each distinct true point costs one march. Distances from it are linear on faces, but straight between two points of
+    one face. Where the true point is out of reach, on another component, the error is the largest that is within reach.
+
+    References
+    ----------
+    The protocol of V. G. Kim, Y. Lipman and T. Funkhouser, "Blended intrinsic maps", ACM Trans. Graph. 30 (2011).
     """
     points = answer if isinstance(answer, SurfacePoints) else answer.points
     if source_indices is not None:
@@ -62,9 +106,7 @@ def geodesic_error(
         raise MapError("the truth lies on another mesh than the map's target; both must be the same object")
     if len(truth) != len(points):
         raise MapError(f"{len(truth)} truth points for {len(points)} mapped points; name the rows by source_indices")
-    marched = _marched(points, truth, distance or _embedded_geodesics(target))
-    straight = np.linalg.norm(points.positions - truth.positions, axis=1)
-    return np.where(_on_one_face(points, truth), straight, marched) / np.sqrt(target.area)
+    return distances_between(points, truth, distance or _embedded_geodesics(target)) / np.sqrt(target.area)
 
 
 def errors_of_maps(answer: PointMap, truth: SurfacePoints | ArrayLike, source_indices: ArrayLike) -> Floats:
@@ -81,7 +123,25 @@ def errors_of_maps(answer: PointMap, truth: SurfacePoints | ArrayLike, source_in
 
 
 def error_curve(errors: ArrayLike, thresholds: ArrayLike | None = None) -> Floats:
-    """The share in [0, 1] of errors at most each threshold, (t,); thresholds are 0, 0.01 .. 0.25 unless given."""
+    """The cumulative curve of errors: how many of them are at most each threshold.
+
+    Parameters
+    ----------
+    errors : array of shape (p,)
+        As `geodesic_error` gives them.
+    thresholds : array of shape (t,), optional
+        0, 0.01, ... 0.25 unless given.
+
+    Returns
+    -------
+    array of shape (t,)
+        Shares in [0, 1].
+
+    Raises
+    ------
+    MapError
+        E310, when there are no errors.
+    """
     thresholds = np.linspace(0, 0.25, 26) if thresholds is None else np.asarray(thresholds, dtype=np.float64)
     ordered = np.sort(np.asarray(errors, dtype=np.float64).ravel())
     if len(ordered) == 0:
@@ -90,7 +150,23 @@ def error_curve(errors: ArrayLike, thresholds: ArrayLike | None = None) -> Float
 
 
 def summary(errors: ArrayLike) -> ErrorSummary:
-    """Mean and median times 100, and the percentage of errors within 0.05, 0.10 and 0.25."""
+    """The figures by which maps are compared.
+
+    Parameters
+    ----------
+    errors : array of shape (p,)
+        As `geodesic_error` gives them.
+
+    Returns
+    -------
+    ErrorSummary
+        Mean and median times 100, and the percentages within 0.05, 0.10 and 0.25.
+
+    Raises
+    ------
+    MapError
+        E310, when there are no errors.
+    """
     errors = np.asarray(errors, dtype=np.float64).ravel()
     within = 100 * error_curve(errors, [0.05, 0.10, 0.25])
     return ErrorSummary(len(errors), 100 * float(errors.mean()), 100 * float(np.median(errors)), *within.tolist())
@@ -112,31 +188,6 @@ def _embedded_geodesics(target: Mesh) -> Distance:
     from geodesics import GeodesicDistance, embedded
 
     return GeodesicDistance(embedded(target))
-
-
-def _marched(points: SurfacePoints, truth: SurfacePoints, distance: Distance) -> Floats:
-    """Distance (p,) by linear interpolation of one field per distinct truth point."""
-    _, first, which = np.unique(
-        np.column_stack([truth.face, truth.barycentric]), axis=0, return_index=True, return_inverse=True
-    )
-    which = which.reshape(-1)
-    corners = points.mesh.faces[points.face]
-    result = np.empty(len(points))
-    for start in range(0, len(first), CHUNK):
-        field = distance.field(truth[first[start : start + CHUNK]])
-        reach = np.where(np.isfinite(field), field, -1).max(axis=1, keepdims=True)
-        field = np.where(np.isfinite(field), field, reach)
-        rows = np.flatnonzero((which >= start) & (which < start + CHUNK))
-        values = field[(which[rows] - start)[:, None], corners[rows]]
-        result[rows] = (values * points.barycentric[rows]).sum(axis=1)
-    return result
-
-
-def _on_one_face(points: SurfacePoints, truth: SurfacePoints) -> Bools:
-    """True where every corner that carries the true point is a corner of the mapped point's face, (p,)."""
-    mapped, true = points.mesh.faces[points.face], truth.mesh.faces[truth.face]
-    shared = (true[:, :, None] == mapped[:, None, :]).any(axis=2)
-    return (shared | (truth.barycentric <= 0)).all(axis=1)
 
 
 def _checked(indices: ArrayLike, rows: int) -> Integers:

@@ -34,7 +34,7 @@ SHAPES = (
     ("faust_5k", "tr_reg_041", "tr_reg_047"),
     *(("tosca_5k", a, b) for a, b in (("michael6", "michael2"), ("cat7", "cat9"))),
 )
-LISTS = {"faust_5k": (4, 8), "tosca_5k": (5, 10), "tosca_cross_5k": (1, 5)}
+LISTS = {"faust_5k": (4, 8), "tosca_5k": (5, 10), "tosca_cross_5k": (1, 5)}  # first pair and step
 
 
 def field(vertices: np.ndarray, faces: np.ndarray, rng: np.random.Generator) -> np.ndarray:

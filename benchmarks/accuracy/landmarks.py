@@ -27,7 +27,7 @@ from gmds import SoftLandmarks, geodesic_error, match
 from gmds.files.table import read_table, write_table
 from gmds.landmarks.checking import place_on
 
-SET, EVERY, OFF = "shrec20", 4, 0.05
+SET, EVERY, OFF = "shrec20", 4, 0.05  # every EVERY-th is given; OFF is in root areas, set by hand
 COLUMNS = ("version", "pair", "landmarks", "error_x100", "worst_x100", "status")
 
 

@@ -26,7 +26,7 @@ from gmds.files.table import read_table, write_table
 from gmds.shapes import quadruped
 
 CODE = ["geodesics", "gmds", ":!gmds/cli", ":!gmds/report"]
-SMALL = 600  # vertices of the shape that workers warm up on
+SMALL = 600  # vertices of the shape that workers warm up on: enough that its spectra are computed sparsely
 ONE_THREAD = dict.fromkeys(
     ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS", "GMDS_THREADS"), "1"
 )

@@ -13,8 +13,8 @@ from gmds.maps.point_map import MatchStatus
 Sections = Mapping[str, Sequence[BenchmarkRow]]
 Summary = Callable[[list[float]], float]
 
-WRONG = 15.0  # mean error x100 above which a map is wrong as a whole
-LOOKED_AT = 10.0  # above which a pair is listed by name
+WRONG = 15.0  # mean error x100 above which a map is wrong as a whole; a convention
+LOOKED_AT = 10.0  # likewise, above which a pair is listed by name
 GOALS = {
     "scaled, self": "<= 2.0",
     "scaled, pose": "<= 3.5",

@@ -26,7 +26,7 @@ from gmds.shapes import quadruped
 from gmds.surface.measured import measure
 
 PAGE = RESULTS / "batch_cost.md"
-SIZES = (50, 600, 1000, 3000, 5000)
+SIZES = (50, 600, 1000, 3000, 5000)  # vertices
 COLUMNS = ("vertices", "a shape, once", "a pair of meshes", "a pair of stored shapes", "saved", "stored shape", "map")
 COLUMNS += ("reading a shape", "profile of a shape", "bound of a pair", "dissimilarity of a pair")
 

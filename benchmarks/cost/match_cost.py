@@ -33,7 +33,7 @@ from gmds.shapes import quadruped
 PAGE = RESULTS / "match_cost.md"
 SIZES = {"5k": 5_000, "50k": 50_000, "250k": 250_000}
 GOALS = {"5k": (4, 0.5), "50k": (12, 1.5), "250k": (60, 5)}  # seconds of wall time, GB
-JUDGED = 125
+JUDGED = 125  # true points, as in the protocol
 
 
 def pair(size: int) -> tuple[Mesh, Mesh, np.ndarray, SurfacePoints]:

@@ -17,7 +17,7 @@ from benchmarks.places import RESULTS
 
 PAGE = RESULTS / "profile.md"
 PACKAGES = ("gmds", "geodesics")
-MOST, LEAST = 40, 0.1
+MOST, LEAST = 40, 0.1  # rows of a table, and seconds that a row must have
 
 
 def main() -> None:

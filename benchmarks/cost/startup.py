@@ -19,7 +19,7 @@ from benchmarks.places import RESULTS
 
 PAGE = RESULTS / "startup.md"
 GOALS = {"import gmds": 0.1, "gmds --help": None, "first match, kernels on disk": 1.5, "first match, compiled": 20}
-RUNS = 3
+RUNS = 3  # of which the median counts
 
 TIMED = """
 import json, time

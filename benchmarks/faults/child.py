@@ -20,7 +20,7 @@ import scipy.sparse as sp
 from benchmarks.faults.cases import ARRAYS
 from benchmarks.faults.libraries import LIBRARIES
 
-MEMORY = 6 << 30  # bytes of address space
+MEMORY = 6 << 30  # bytes of address space: a bound
 
 
 def main() -> None:

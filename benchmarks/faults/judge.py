@@ -33,7 +33,7 @@ from benchmarks.faults.cases import Case
 from benchmarks.faults.meanings import readings
 
 CLASSES = ("right", "clear error", "unclear error", "not finite, silently", "wrong, silently", "crash", "hang")
-MEAN_ERROR = 0.05
+MEAN_ERROR = 0.05  # of distances, relative, that counts as right: a convention
 FLAT = 1e-12  # of the square of the extent: no area, and no energy to compare
 FAR_OFF = 1e6  # times the longest distance: no distance, but a mark
 OF_FEW_VERTICES = 0.5  # below ten: the heat method can do no better

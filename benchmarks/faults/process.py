@@ -16,7 +16,7 @@ from typing import Any
 
 from benchmarks.places import ROOT
 
-CPU_SECONDS, WALL_SECONDS, LOOK = 10.0, 180.0, 0.5
+CPU_SECONDS, WALL_SECONDS, LOOK = 10.0, 180.0, 0.5  # bounds of a case, and seconds between two looks at it
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS", "GMDS_THREADS"), "1")
 
 

@@ -30,8 +30,8 @@ from benchmarks.markdown import table
 from benchmarks.places import RESULTS
 
 FIGURES = ("answered", "refused", "seconds", "slowest", "megabytes")
-CHUNK = 20_000  # files a child process
-SECONDS, MEMORY = 5, 2 << 30
+CHUNK = 20_000  # files a child process; set by hand
+SECONDS, MEMORY = 5, 2 << 30  # that a file of a few hundred bytes may cost, processor time and bytes: bounds
 PIECES = [b"-1", b"1e999", b"nan", b"inf", b"1e400", b"9" * 9, b"9" * 20, b"2147483648", b"4294967297", b"1_0", b"0x1",
           b",", b"\0", b"\xff", b"#", b"\n", b"\r", b" ", b"\t", b"{", b"[", b'"', b"=", b"\xef\xbb\xbf",
           b"null", b"true", b"[]", b"{}", b'""', b"0", b"-7.5", b'"a": 1, ', b"[matching]\n",

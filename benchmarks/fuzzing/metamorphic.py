@@ -26,9 +26,9 @@ from benchmarks.markdown import table
 from benchmarks.places import RESULTS
 from geodesics import GeodesicDistance, Mesh, SurfacePoints, eigenpairs, embedded, scale_invariant
 
-SOURCES, EIGENVALUES = 5, 12
+SOURCES, EIGENVALUES = 5, 12  # of each mesh; set by hand
 REFINED = "every face in four"
-ROUNDING, FINER_DISTANCES, FINER_SPECTRUM = 1e-6, 0.03, 1 / 12
+ROUNDING, FINER_DISTANCES, FINER_SPECTRUM = 1e-6, 0.03, 1 / 12  # relative deviations allowed; the page says why
 
 
 class Copy(NamedTuple):

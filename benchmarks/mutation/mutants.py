@@ -43,7 +43,8 @@ MODULES: dict[str, tuple[str, ...]] = {
     "geodesics._validation": ("test_bad_arrays", "test_points", "test_mesh"),
     "geodesics._duck": ("test_bad_arrays",),
     "geodesics.check": ("test_check", "test_repair"),
-    "geodesics.repair": ("test_repair", "test_remeshing"),
+    "geodesics.repair.repairing": ("test_repair", "test_remeshing"),
+    "geodesics.repair.remeshing": ("test_remeshing", "test_repair"),
     "geodesics.repair.splitting": ("test_splitting",),
     "geodesics.topology.orientation": ("test_check", "test_repair", "test_values"),
     "geodesics.memory": ("test_memory",),
@@ -52,13 +53,14 @@ MODULES: dict[str, tuple[str, ...]] = {
     "geodesics.io.writing": ("test_io", "test_bad_files", "test_file_limits"),
     "geodesics.io.atomic": ("test_file_limits", "test_bad_files", "test_system"),
     "gmds.suggestions": ("test_landmarks",),
-    "gmds.landmarks": ("test_landmarks", "test_values"),
+    "gmds.landmarks.checking": ("test_landmarks", "test_values"),
+    "gmds.files.table": ("test_table",),
     "gmds.files.npz": ("test_npz_file", "test_map_damage"),
     "gmds.maps.npz_format": ("test_map_file", "test_map_damage"),
     "gmds.maps.images": ("test_images", "test_correspondence"),
     "gmds.correspondence": ("test_correspondence", "test_map_file", "test_images", "test_values"),
     **dict.fromkeys(
-        [f"gmds.landmarks.files.{name}" for name in ("landmarks", "plain", "reading", "slicer")],
+        [f"gmds.landmarks.files.{name}" for name in ("named_points", "plain", "reading", "slicer", "table")],
         ("test_bad_landmark_files", "test_landmark_formats", "test_values"),
     ),
 }
@@ -128,7 +130,7 @@ def read(path: Path) -> Done:
     with path.open(newline="", encoding="utf-8") as stream:
         _, *lines = csv.reader(stream)
     rows = [Fault(name, int(at), int(seed), was == "True", where, text) for name, at, seed, was, where, text in lines]
-    return {(row.module, row.number): row for row in rows if row.digest == digest(row.module)}
+    return {(row.module, row.number): row for row in rows if row.module in MODULES and row.digest == digest(row.module)}
 
 
 def write(path: Path, done: Done) -> None:

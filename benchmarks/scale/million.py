@@ -22,7 +22,7 @@ from geodesics.sampling import farthest_point_cells
 from gmds.cli.output import progress_bar
 
 PAGE = RESULTS / "million.md"
-EIGENPAIRS, SAMPLES = 100, 1000
+EIGENPAIRS, SAMPLES = 100, 1000  # a convention: what the table says
 
 
 def ply(size: str, folder: Path) -> Path:

@@ -26,7 +26,7 @@ from geodesics.sampling import farthest_point_cells
 from gmds.shapes import quadruped
 
 Result = dict[str, float]
-SOURCES, MANY, SAMPLES, EIGENPAIRS = 5, 50, 1000, 200
+SOURCES, MANY, SAMPLES, EIGENPAIRS = 5, 50, 1000, 200  # a convention: what the goals of scale.py are stated for
 
 
 def timed(action: Callable[[], Any]) -> tuple[float, float, Any]:

@@ -14,8 +14,8 @@ from gmds.pictures.software import render
 Array = NDArray[np.float64]
 
 BODY, GOOD, DOUBTFUL = (0.82, 0.80, 0.76), (0.10, 0.35, 0.75), (0.85, 0.10, 0.10)
-BALL = 0.018  # radius, in square roots of the area
-PIXELS = 560
+BALL = 0.018  # radius, in square roots of the area; set by hand
+PIXELS = 560  # of the longer side; set by hand
 
 
 def draw(path: Path, mesh: Mesh, places: Array, doubtful: NDArray[np.bool_], up: Direction) -> None:

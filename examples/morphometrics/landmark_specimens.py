@@ -30,6 +30,7 @@ from gmds.surface.measured import Surface, measure
 Array = NDArray[np.float64]
 
 UP: dict[str, Direction] = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
+# both set by hand: who looks at more is on the safe side
 DOUBTFUL = 0.3  # confidence of a landmark below which it needs a look
 FAR = 3.0  # times the median distance from the mean shape beyond which a specimen does
 

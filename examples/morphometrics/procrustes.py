@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-ROUNDS = 100
+ROUNDS = 100  # a bound
 STILL = 1e-12  # change of the mean, whose size is 1, at which it has converged
 
 

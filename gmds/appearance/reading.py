@@ -26,8 +26,17 @@ class BadLook(FormatError):
 
 @dataclass(frozen=True, eq=False)
 class Look:
-    """How a mesh looks: `colours` (n, 3 or 4) uint8 of vertices, or None; `uv` (m, 3, 2) float64 of the corners of its
-    faces, or None, from (0, 0) at the lower left of the `image`, a PIL image, or None."""
+    """How a mesh of n vertices and m faces looks.
+
+    Parameters
+    ----------
+    colours : array of shape (n, 3) or (n, 4), optional
+        Red, green, blue and perhaps opacity of each vertex, uint8.
+    uv : array of shape (m, 3, 2), optional
+        Texture coordinates of the corners of faces, from (0, 0) at the lower left of the image to (1, 1).
+    image : PIL.Image, optional
+        What the coordinates lay on the surface.
+    """
 
     colours: NDArray[np.uint8] | None = None
     uv: Floats | None = None
@@ -35,11 +44,35 @@ class Look:
 
 
 def read_look(path: Path, mesh: Mesh, texture: Path | None = None) -> Look:
-    """The look of the mesh that was read from an OBJ, PLY or GLB file; `texture` is the image of its coordinates.
+    """The colours or the texture of a mesh file.
 
-    No file is opened that was not named: what an OBJ says about materials is not followed, a GLB has its image inside.
-    Raises `BadLook` (E217) where faces are in another order than in the file, as with several materials, or for an
-    image that cannot be read, `MissingExtra` without Pillow.
+    Parameters
+    ----------
+    path : Path
+        OBJ, PLY or GLB; other files have no look. No file is opened that was not named: materials of an OBJ are not
+        followed.
+    mesh : Mesh
+        What was read from it.
+    texture : Path, optional
+        The image that its texture coordinates belong to. A GLB has its own inside.
+
+    Returns
+    -------
+    Look
+        Texture coordinates where there are some, else colours, else nothing.
+
+    Raises
+    ------
+    BadLook
+        E217, where faces are in another order than in the file, as with several materials, or for an image that cannot
+        be read.
+    MissingExtra
+        E602, without Pillow.
+
+    See Also
+    --------
+    carry_uv : Texture coordinates along a map.
+    write_look : The mesh with its look.
     """
     data = read_bytes(path)
     kind = sniff(data, path)
@@ -47,7 +80,7 @@ def read_look(path: Path, mesh: Mesh, texture: Path | None = None) -> Look:
         return Look()
     loaded = _loaded(data, kind, path)
     corners = loaded.vertices[loaded.faces]
-    near = 1e-6 * np.abs(mesh.vertices).max()  # of single precision
+    near = 1e-6 * np.abs(mesh.vertices).max()  # single precision has 24 bits, 6e-8
     if corners.shape != (mesh.n_faces, 3, 3) or np.abs(corners - mesh.vertices[mesh.faces]).max() > near:
         raise BadLook(
             f"{path}: its faces are not in one piece; join its parts and materials into one and save it again"

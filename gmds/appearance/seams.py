@@ -13,19 +13,42 @@ from geodesics.topology.edges import edge_keys
 from gmds.errors import MapError
 from gmds.maps.point_map import PointMap
 
-SAME = 1e-6  # texture coordinates closer than this are one
-JUMP = 0.5  # of the length of an edge in the image, by which it ends elsewhere than foretold where it crosses a cut
-LARGEST = 2000  # faces of a patch
+SAME = 1e-6  # texture coordinates closer than this are one: the image is 1 wide, and files often have six decimals
+JUMP = 0.5  # an edge crosses a cut when it ends this far from where it was foretold, over its length in the image;
+# set by hand: what is suspected in vain is found out, and costs time only
+LARGEST = 2000  # faces of the patch that is searched; a bound of time, set by hand
 
 
 def carry_uv(answer: PointMap, uv: Floats) -> tuple[Floats, Bools]:
-    """Texture coordinates (m_target, 3, 2) of the corners of the target's faces as those of the source's, (m, 3, 2).
+    """Texture coordinates of the target, carried to the corners of the source's faces.
 
     A corner gets what the texture has where its vertex goes. A face whose corners go to different charts of the
-    texture, or to different sides of a cut, would be filled with all that lies between them in the image; such faces
-    (m,), the second answer, take all three from one side: from the chart where the middle of the face goes, at the
-    points of it that are closest to where the corners go. They show the right part of the image, stretched up to the
-    seam. Raises `MapError` for coordinates of another shape, or not finite.
+    texture, or to different sides of a cut, would be filled with all that lies between them in the image. Such a face
+    takes all three from one side: from the chart where the middle of the face goes, at the points of it that are
+    closest to where the corners go. It shows the right part of the image, stretched up to the seam.
+
+    Parameters
+    ----------
+    answer : Correspondence
+        The map.
+    uv : array of shape (m of the target, 3, 2)
+        Texture coordinates of the corners of the target's faces.
+
+    Returns
+    -------
+    carried : array of shape (m of the source, 3, 2)
+        Those of the source's faces.
+    across : array of shape (m of the source,)
+        Which faces lie across a seam.
+
+    Raises
+    ------
+    MapError
+        E310, for coordinates of another shape, or not finite.
+
+    See Also
+    --------
+    read_look : Where texture coordinates come from.
     """
     source, target, points = answer.source, answer.target, answer.points
     if uv.shape != (target.n_faces, 3, 2) or not np.isfinite(uv).all():

@@ -23,12 +23,32 @@ VTK = {"f8": "Float64", "f4": "Float32", "i8": "Int64", "i4": "Int32", "u1": "UI
 
 
 def write_look(path: Path, mesh: Mesh, look: Look, values: Values | None = None) -> list[Path]:
-    """Write a mesh with its look and values (n,) or (n, k) on its vertices, atomically; the files that were written.
+    """Write a mesh with its look, or with values on its vertices; each file is whole or untouched.
 
-    .obj: colours behind positions, or texture coordinates, with a .mtl and a .png beside it; vertices stay as they are.
-    .glb: colours, or texture coordinates and the image; vertices are doubled along the seams of the texture, as the
-    format asks for. .ply: colours and values. .vtp (ParaView): values, and colours as one of them. Raises `BadLook`
-    (E217) for what a format cannot keep.
+    Parameters
+    ----------
+    path : Path
+        The ending names the format. .obj: colours behind positions, or texture coordinates with a .mtl and a .png
+        beside it. .glb: colours, or texture coordinates and the image, with vertices doubled along seams, as the
+        format asks for. .ply: colours and values. .vtp (ParaView): values, and colours as one of them.
+    mesh : Mesh
+        Of n vertices.
+    look : Look
+        Colours or texture.
+    values : mapping from str to arrays of shape (n,) or (n, k), optional
+        Numbers on vertices.
+
+    Returns
+    -------
+    list of Path
+        The files that were written.
+
+    Raises
+    ------
+    BadLook
+        E217, for what a format cannot keep.
+    OSError
+        When a file cannot be written.
     """
     ending, values = path.suffix.lower(), values or {}
     if look.uv is not None and ending not in (".obj", ".glb"):

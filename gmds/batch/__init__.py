@@ -1,8 +1,8 @@
 """Many pairs of a collection of shapes, matched side by side; resumed where it stopped, whatever fails."""
 
 from gmds.batch.pair_choice import all_pairs, both_ways, consecutive, with_template
-from gmds.batch.records import PairRecord, ShapeRecord
-from gmds.batch.run import Batch, match_collection
+from gmds.batch.records import Batch, PairRecord, ShapeRecord
+from gmds.batch.run import match_collection
 from gmds.batch.workers import local_client, quiet, remote_client
 
 __all__ = [

@@ -15,9 +15,9 @@ from gmds.batch.records import PairRecord, ShapeRecord
 from gmds.batch.store import Store
 from gmds.files.table import write_table
 
-SAMPLES = 300  # of each shape, that go around
-IN_MEMORY = 4096  # maps
-SHAPES_IN_MEMORY = 256
+SAMPLES = 300  # of each shape, that go around: as many as `match` places
+IN_MEMORY = 4096  # maps at a time: a bound of memory, 65 bytes a vertex each
+SHAPES_IN_MEMORY = 256  # a bound likewise, 72 bytes a vertex each
 
 
 def agreement(

@@ -15,7 +15,7 @@ from gmds.batch.pair_choice import Choice, Pairs, all_pairs
 from gmds.batch.pair_list import read_list
 from gmds.files.folders import mesh_files
 
-LONGEST = 100  # bytes of a name: two of them and a little more make the name of a file
+LONGEST = 100  # bytes of a name: two of them and a little more make the name of a file, which may have 255
 Given = str | os.PathLike[str] | Mapping[str, Mesh | str | os.PathLike[str]] | Sequence[str | os.PathLike[str]]
 
 

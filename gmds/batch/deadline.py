@@ -10,7 +10,7 @@ from pathlib import Path
 
 from gmds.errors import PairTimeout
 
-GRACE = 5.0  # seconds, beyond half the limit, after which the process is ended
+GRACE = 5.0  # seconds, beyond half the limit, after which the process is ended; set by hand, for short limits
 
 
 @contextlib.contextmanager

@@ -8,7 +8,7 @@ from pathlib import Path
 from gmds.errors import BadPairList
 from gmds.files.text import read_text
 
-LARGEST = 1 << 28  # bytes
+LARGEST = 1 << 28  # bytes: a bound, millions of pairs
 HEADER = ("source", "target")
 
 

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
+from gmds.batch.cycles import Consistency
+
 TIMED_OUT, WORKER_DIED, UNEXPECTED, NO_MEMORY, UNREADABLE = "E504", "E505", "E500", "E501", "E202"
+UNDONE = ("failed", "missing")  # the statuses of pairs without a map
 
 
 @dataclass(frozen=True)
@@ -86,3 +91,25 @@ class PairRecord:
             "code": failure.code,
             "reason": failure.reason,
         }
+
+
+@dataclass(frozen=True, eq=False)
+class Batch:
+    """What came of a collection: a record of every shape and of every pair, in the order of the pairs.
+
+    `consistency`: whether the maps agree around triangles of shapes.
+    """
+
+    output: Path
+    shapes: Mapping[str, ShapeRecord]
+    pairs: tuple[PairRecord, ...]
+    consistency: Consistency
+
+    @property
+    def failed(self) -> tuple[PairRecord, ...]:
+        """Pairs without a map."""
+        return tuple(pair for pair in self.pairs if pair.status in UNDONE)
+
+    def map_file(self, pair: PairRecord) -> Path:
+        """Where the map of a pair is."""
+        return self.output / "pairs" / f"{pair.name}.npz"

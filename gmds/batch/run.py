@@ -16,7 +16,7 @@ from gmds.batch.existing_maps import Expected, pair_record
 from gmds.batch.lock import only_run
 from gmds.batch.manifest import Manifest, event, write_summary
 from gmds.batch.pair_choice import Choice, Pairs
-from gmds.batch.records import Failure, PairRecord, ShapeRecord
+from gmds.batch.records import UNDONE, Batch, Failure, PairRecord, ShapeRecord
 from gmds.batch.store import Store
 from gmds.batch.tasks import PairJob, ShapeJob, match_pair, measure_shape
 from gmds.batch.workers import local_client, outcomes
@@ -29,30 +29,7 @@ Progress = Callable[[str, float], None]
 
 OPTIONS = ("distance", "loss", "n_samples", "orientation", "rng")
 LEFT_OVER = ("*/.gmds-*.tmp", "pairs/.*.late")  # by processes that were killed
-UNDONE = ("failed", "missing")
-MEASURING, CYCLES = 0.1, 0.02  # of the progress
-
-
-@dataclass(frozen=True, eq=False)
-class Batch:
-    """What came of a collection: a record of every shape and of every pair, in the order of the pairs.
-
-    `consistency`: whether the maps agree around triangles of shapes.
-    """
-
-    output: Path
-    shapes: Mapping[str, ShapeRecord]
-    pairs: tuple[PairRecord, ...]
-    consistency: Consistency
-
-    @property
-    def failed(self) -> tuple[PairRecord, ...]:
-        """Pairs without a map."""
-        return tuple(pair for pair in self.pairs if pair.status in UNDONE)
-
-    def map_file(self, pair: PairRecord) -> Path:
-        """Where the map of a pair is."""
-        return self.output / "pairs" / f"{pair.name}.npz"
+MEASURING, CYCLES = 0.1, 0.02  # shares of the bar of progress, about those of the time; set by hand
 
 
 def match_collection(
@@ -65,19 +42,48 @@ def match_collection(
     progress: Progress | None = None,
     **options: Any,
 ) -> Batch:
-    """Match many pairs of shapes, on all processors or on a cluster, and keep the maps in the folder `output`.
-
-    `shapes`: a folder of meshes, a list file of pairs `A,B`, paths, or a mapping from names to meshes or paths.
-    `pairs`: which to match, `gmds.batch.all_pairs` unless a list says so; or `consecutive`, `with_template(name)`,
-    `both_ways(...)` of these, or pairs of names. `options` are those of `match`: distance, loss, n_samples,
-    orientation, rng. `timeout`: seconds that a pair may take. `client`: a `distributed.Client`, or what
-    `gmds.batch.local_client(workers)` or `remote_client(address)` returns; all processors of this machine by default (a
-    script then needs `if __name__ == "__main__":`). Workers must see `output` under the same path.
+    """Match many pairs of shapes, on all processors or on a cluster, and keep the maps in a folder.
 
     Each shape is measured once and kept. Maps that are there and whole, of these meshes, parameters and version, are
-    not made again. What fails is told in the records, with a code, and the rest goes on; a pair during which three
-    workers died is given up. One run at a time works in a folder: the second raises `FolderInUse` (E503). Raises
-    `FormatError`, `ValueError` or `OSError` when there is nothing to match, `MissingExtra` (E602).
+    not made again, so a run that was stopped goes on. What fails is told in the records, with a code, and the rest goes
+    on; a pair during which three workers died is given up.
+
+    Parameters
+    ----------
+    shapes : folder, file, sequence of paths, or mapping
+        A folder of meshes, a list of pairs `A,B` in a file, paths, or names with their meshes or paths.
+    output : path
+        The folder of the maps. Workers must see it under the same path.
+    pairs : function or pairs of str, optional
+        Which to match: `gmds.batch.all_pairs` unless a list says so; or `consecutive`, `with_template(name)`,
+        `both_ways(...)` of these.
+    timeout : float, optional
+        Seconds that a pair may take.
+    client : optional
+        A `distributed.Client`, or what `gmds.batch.local_client(workers)` or `remote_client(address)` returns; all
+        processors of this machine by default (a script then needs `if __name__ == "__main__":`).
+    progress : function, optional
+        Told what is being done, and how much of it all is done, from 0 to 1.
+    **options
+        Those of `match`: distance, loss, n_samples, orientation, rng.
+
+    Returns
+    -------
+    Batch
+        A record of every shape and of every pair, and whether the maps agree around triangles of shapes.
+
+    Raises
+    ------
+    FolderInUse
+        E503: one run at a time works in a folder.
+    FormatError, ValueError, OSError
+        When there is nothing to match.
+    MissingExtra
+        E602, without dask.
+
+    See Also
+    --------
+    match : One pair.
     """
     check_keys(options, OPTIONS, "match_collection()")
     if not is_lasting(options.get("distance")):

@@ -29,7 +29,7 @@ from gmds.spectral.sample_maps import TARGET_SAMPLES
 from gmds.surface.measured import Surface
 from gmds.surface.view import View
 
-VERSION = 2
+VERSION = 2  # of the layout; a file of another is measured again
 
 Arrays = dict[str, NDArray[Any]]
 

@@ -17,6 +17,7 @@ from gmds.batch.records import WORKER_DIED, Failure
 Job = TypeVar("Job")
 Result = TypeVar("Result")
 
+# all four set by hand; no map depends on them
 TRIES = 3  # workers that may die of a task before it is given up
 LOST = 30  # seconds that a worker may take to come back, after which it is replaced
 OFTEN = 1.0  # seconds between two counts of the threads

@@ -16,7 +16,7 @@ from gmds.files.text import read_text
 Truth = tuple[Integers, SurfacePoints, SurfacePoints | None]
 TruthReader = Callable[[Mesh, Mesh], Truth]
 
-LARGEST = 1 << 26  # bytes of a listing
+LARGEST = 1 << 26  # bytes of a listing: a bound, far above the pairs of any benchmark
 
 
 class UnknownDataset(FormatError):
@@ -29,8 +29,19 @@ class UnknownDataset(FormatError):
 class Pair:
     """Two mesh files and their truth.
 
-    `truth(source, target)` gives source vertices (p,), p points of the target, and p flipped points, or None for these.
-    `missing()` gives source vertices (q,) that have no counterpart in the target, where the data says so.
+    Parameters
+    ----------
+    name : str
+        As rows of tables have it.
+    source, target : Path
+        The mesh files.
+    truth : function
+        Of both meshes, once they are read: source vertices (p,), their p true points on the target, and p points
+        with left and right exchanged, or None for these. Raises `BadTruth` (E231).
+    group : str, optional
+        What averages are taken over.
+    missing : function, optional
+        Without arguments: source vertices (q,) that are known to have no counterpart on the target.
     """
 
     name: str

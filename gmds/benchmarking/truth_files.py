@@ -17,7 +17,7 @@ from gmds.correspondence import Correspondence
 from gmds.files.mat import read_mat
 from gmds.files.npz import DAMAGED, opened, read_npz
 
-HUMP = 12  # landmark of camels that sits where other animals have nothing
+HUMP = 12  # the number of the landmark that camels of SHREC'20 have on a hump, where other animals have nothing
 
 
 class BadTruth(FormatError):

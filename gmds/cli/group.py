@@ -15,7 +15,7 @@ from typing import Any, NoReturn
 
 import click
 
-BAD_INPUT, UNFINISHED, INTERRUPTED = 1, 3, 130
+BAD_INPUT, UNFINISHED, INTERRUPTED = 1, 3, 130  # exit codes; click's own is 2, and a shell's after Ctrl-C 128 + 2
 
 
 class Command(click.Command):

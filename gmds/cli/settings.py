@@ -17,7 +17,7 @@ SHARED = "matching"  # the table of what all these commands take; their own opti
 COMMANDS = ("match", "batch", "benchmark")
 TABLES = (SHARED, *COMMANDS)
 NO_SETTINGS = ("config", "dump-config", "debug", "json", "help")
-LARGEST = 1_000_000  # bytes
+LARGEST = 1_000_000  # bytes of a file of settings: a bound, far above what people write
 Tables = dict[str, dict[str, Any]]
 
 

@@ -13,8 +13,9 @@ from geodesics.errors import MissingExtra
 from gmds.comparison.clustering import families, leaf_order, plane_map, tree
 from gmds.pictures.colours import label_colours
 
+# all three set by hand, so that words do not cover each other
 LABELLED = 60  # with more shapes, the map names each family once
-PICTURE = 68  # points across
+PICTURE = 68  # points (1/72 inch) across a picture of a shape
 WRITTEN = 12  # with more shapes, the matrix is colours alone
 
 

@@ -28,7 +28,7 @@ from gmds.surface.view import View
 
 Progress = Callable[[str, float], None]
 
-IN_MEMORY = 40  # surfaces whose eigenfunctions are kept at a time
+IN_MEMORY = 40  # surfaces whose eigenfunctions are kept at a time: a bound of memory, 1.3 kB a vertex each
 _SETTINGS = f"{profiles.FUNCTIONS} {profiles.EQUAL_AREA_SAMPLES} {profiles.QUANTILES} {SMOOTHING}"
 _EMBEDDING = f"{_SETTINGS} {morphometry.KEPT} {morphometry.DESCENDED} {morphometry.SWEEPS}"
 

@@ -20,7 +20,7 @@ from gmds.files.table import write_table
 
 Neighbour = tuple[str, int, str, float, float | None]  # shape, rank, other, bound, distortion
 
-SHOWN = 5  # neighbours of each shape
+SHOWN = 5  # neighbours of each shape; set by hand
 DISTORTION = "the distortion of the best embeddings found of two shapes in each other"
 BOUND = "the bound, which no embedding that keeps area goes below"
 

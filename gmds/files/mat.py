@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from gmds.files.npz import opened
 
-SECONDS = 60
+SECONDS = 60  # of wall time that reading may take: a bound, as damaged files can make it endless
 READ = """
 import io, sys, warnings
 import numpy, scipy.io

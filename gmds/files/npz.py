@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 PLAIN = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
-LARGEST = 8 << 30  # bytes of one array, however small it is packed
+LARGEST = 8 << 30  # bytes of one array, however small it is packed: a bound, 10^9 numbers
 DAMAGED = (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, OSError, ValueError, KeyError, MemoryError)
 """What `zipfile` and `numpy` raise on bytes that were damaged."""
 

@@ -38,7 +38,7 @@ EXTRAS = {
     "batch": (("distributed>=2024.1",), "`gmds batch`"),
 }
 MODULES = {"libigl": "igl", "tomli-w": "tomli_w", "pillow": "PIL"}  # modules that are not called as their package
-PATIENCE = 120  # seconds that an import may take
+PATIENCE = 120  # seconds that an import may take: a bound
 
 State = Literal["ok", "absent", "problem"]
 

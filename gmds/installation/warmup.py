@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-VERTICES = 300  # enough for everything to have work, few enough for seconds
-SPARSE = 1200  # below some hundred vertices spectra are computed densely, by other means
+VERTICES = 300  # enough for everything to have work, few enough for seconds; tests say that no kernel is left out
+SPARSE = 1200  # vertices; below some hundred, spectra are computed densely, by other means
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from gmds.landmarks.files import BadLandmarkFile
-from gmds.landmarks.files.reading import NUMBER, WHOLE, landmark_text
+from gmds.landmarks.files.reading import WHOLE, is_number, landmark_text
 from gmds.landmarks.soft import SoftLandmarks
 
 WIDTHS = (2, 6, 8)  # entries of both points
@@ -63,7 +63,7 @@ def _numbers(path: Path, number: int, words: list[str], width: int) -> list[floa
         raise BadLandmarkFile(f"{path}, line {number}: {len(words)} entries where the first line has {width}")
     for i, word in enumerate(words):
         whole = (width in (2, 3) and i < 2) or (width in (8, 9) and i in (0, 4))
-        if not re.fullmatch(WHOLE if whole else NUMBER, word, re.ASCII):
+        if not (re.fullmatch(WHOLE, word, re.ASCII) if whole else is_number(word)):
             kind = "a whole number" if whole else "a number"
             raise BadLandmarkFile(f"{path}, line {number}: {word[:40]!r} is not {kind}")
     values = [float(word) for word in words]

@@ -9,7 +9,7 @@ from scipy.spatial import cKDTree
 from geodesics import Mesh
 from geodesics.arrays import Floats
 
-MISSING = (0.62, 0.62, 0.62)  # grey for what has no counterpart or no value
+MISSING = (0.62, 0.62, 0.62)  # sRGB, grey for what has no counterpart or no value; set by hand
 
 # "cividis" (Nunez, Anderton, Renslow 2018) at ten even steps
 _CIVIDIS = np.array(

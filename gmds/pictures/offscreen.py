@@ -15,15 +15,32 @@ from geodesics.arrays import Floats, Integers
 from gmds.errors import RenderingError
 from gmds.pictures.software import OVERSAMPLING, Shot, averaged
 
-PATIENCE = 120  # seconds that drawing may take
+PATIENCE = 120  # seconds that drawing may take: a bound, as a graphics driver can hang
 AROUND = np.array([[0, 3, 6, 5], [1, 4, 6, 3], [2, 5, 6, 4]])  # of the seven points of a face, those nearest a corner
 WORKER = Path(__file__).with_name("offscreen_worker.py")
 
 
 def offscreen(shots: Sequence[Shot]) -> list[Floats]:
-    """Images (height, width, 3) in [0, 1] of the shots, drawn by pyvista in another process.
+    """Draw by pyvista, in another process: where there is no graphics driver it may end the process that it runs in.
 
-    Raises `RenderingError` (E510), which says what to do, where pyvista is not installed or cannot draw.
+    Parameters
+    ----------
+    shots : sequence of Shot
+        What is to be drawn.
+
+    Returns
+    -------
+    list of arrays of shape (height, width, 3)
+        Images in [0, 1], on white.
+
+    Raises
+    ------
+    RenderingError
+        E510, where pyvista is not installed or cannot draw; the message says what to do.
+
+    See Also
+    --------
+    software : On any machine.
     """
     if not _installed():
         raise RenderingError("pyvista is not installed; install it with: pip install 'gmds[viz]'")

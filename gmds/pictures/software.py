@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from geodesics import Mesh, vertex_normals
 from geodesics.arrays import Floats, Integers
 
-OVERSAMPLING = 2  # pixels across for each that is kept
+OVERSAMPLING = 2  # pixels across for each that is kept, so that edges are not ragged; set by hand
 
 
 def view_rotation(azimuth: float, elevation: float) -> Floats:
@@ -38,9 +38,20 @@ class Frame:
 
 @dataclass(frozen=True, eq=False)
 class Shot:
-    """A mesh with vertex colours (n, 3) to be drawn as seen along a camera rotation, `pixels` its longer side.
+    """A mesh to be drawn, and from where.
 
-    `sharp` gives each place the colour of the nearest corner instead of a blend.
+    Parameters
+    ----------
+    mesh : Mesh
+        Of n vertices.
+    colours : array of shape (n, 3)
+        Of vertices, sRGB in [0, 1].
+    rotation : array of shape (3, 3)
+        Rows right, up and towards the viewer in the coordinates of the mesh, as `gmds.pictures.camera` makes it.
+    pixels : int
+        The longer side of the image.
+    sharp : bool
+        Gives each place the colour of the nearest corner instead of a blend.
     """
 
     mesh: Mesh
@@ -69,9 +80,21 @@ class Shot:
 
 
 def software(shots: Sequence[Shot]) -> list[Floats]:
-    """Images (height, width, 3) in [0, 1] on white of the shots, by a depth buffer of our own, on any machine.
+    """Draw by a depth buffer of our own, on any machine; one light at the viewer's shoulder, faces lit from both sides.
 
-    One light at the viewer's shoulder, faces lit from both sides.
+    Parameters
+    ----------
+    shots : sequence of Shot
+        What is to be drawn.
+
+    Returns
+    -------
+    list of arrays of shape (height, width, 3)
+        Images in [0, 1], on white.
+
+    See Also
+    --------
+    offscreen : By pyvista, where that can draw.
     """
     return [_drawn(shot, OVERSAMPLING) for shot in shots]
 

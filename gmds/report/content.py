@@ -19,9 +19,9 @@ from gmds.report.packing import levels, small
 
 Both = tuple[Drawing, Drawing]
 
-BARS = 40
-THRESHOLDS = np.linspace(0, 0.25, 51)
-LOST, FOUND = (0.93, 0.60, 0.20), (0.28, 0.47, 0.72)  # without a counterpart, and with one: orange and blue
+BARS = 40  # of a histogram; set by hand
+THRESHOLDS = np.linspace(0, 0.25, 51)  # errors, over the root of the area: the range in which the field draws curves
+LOST, FOUND = (0.93, 0.60, 0.20), (0.28, 0.47, 0.72)  # sRGB, without and with a counterpart: orange and blue
 MATCH = (
     "A point and its partner on the other surface have the same colour. Look for a part that has the colour of "
     "another part, a left leg that of a right leg, say: there the map is wrong."

@@ -13,9 +13,10 @@ from geodesics.arrays import Floats, Integers
 from geodesics.repair.decimation import clustered, decimated
 from geodesics.topology.orientation import orient_faces
 
+# how a browser turns both is in benchmarks/results/page_speed.md
 MOST = 12_000  # vertices up to which a surface is drawn as it is
 DRAWN = 8_000  # vertices, about, of what is drawn of a larger one
-DIAMETER = 0.99  # of the ball that a surface is drawn in; the axes of the page are of length one
+DIAMETER = 0.99  # of the ball that a surface is drawn in; a little less than the axes of the page, whose length is 1
 
 
 @dataclass(frozen=True, eq=False)

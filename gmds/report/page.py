@@ -38,12 +38,37 @@ def write_report(
     """One self-contained HTML page on a map: both surfaces in 3-D, corresponding points in the same colour.
 
     Pointing at one surface lights up the partner on the other. The page also shows the distortion, what has no
-    counterpart, and every candidate of the map; and `errors`, geodesic over sqrt of the target's area, per source
-    vertex: (n,), NaN where the truth is not known, or (k, n) with a row for the map and for each of the first k - 1
-    candidates. A surface with more than 12,000 vertices is drawn as a copy with some 8,000; what is told of a vertex
-    holds for the whole surface. `up` is up in the source's coordinates; the target is turned to be seen from the same
-    side. Titles and names are shown as they are, never read as markup; no script but the page's own may run.
-    Raises `MissingExtra` without the extra `viz`, `OSError` when the file cannot be written.
+    counterpart, and every candidate of the map. A surface with more than 12,000 vertices is drawn as a copy with some
+    8,000; what is told of a vertex holds for the whole surface. No script but the page's own may run.
+
+    Parameters
+    ----------
+    path : path
+        The page; the old one or the new one, never half of one.
+    answer : Correspondence
+        The map, of n source vertices.
+    errors : array of shape (n,) or (k, n), optional
+        Geodesic errors over the root of the target's area, NaN where the truth is not known; with k rows, of the map
+        and of its first k - 1 candidates.
+    title : str
+        Shown as it is, never read as markup.
+    names : two str
+        Of source and target, likewise.
+    up : three floats
+        What is up in the source's coordinates. The target is turned to be seen from the same side.
+
+    Raises
+    ------
+    MissingExtra
+        E602, without the extra `viz`.
+    ValueError
+        For errors of another shape.
+    OSError
+        When the file cannot be written.
+
+    See Also
+    --------
+    gmds.pictures.write_picture : A picture of the same.
     """
     library = _library()
     judged = _checked(errors, answer)

@@ -31,21 +31,69 @@ def pair_bag(assignment: Floats, spectrum: Spectrum, time: float) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class BagOfFeatures:
-    """Turns a mesh into a vector that sums to 1 and depends on neither numbering, pose nor size (Table 1).
+    r"""Turns a mesh into a vector that depends on neither numbering, pose nor size (Table 1).
 
-    With descriptors in a scale-invariant metric, the size of single parts does not matter either. Several descriptors
-    have a vocabulary each, and their bags, one after another, an equal share in the sum.
+    .. math:: f_i = \frac{1}{\mathrm{area}} \int \theta_i(x) \, da
+
+    where :math:`\theta_i(x)` is how much the descriptor at x is like the i-th word of a vocabulary. With descriptors in
+    a scale-invariant metric the sizes of single parts do not matter either. Several descriptors have a vocabulary each,
+    and their bags, one after another, an equal share in the sum, which is 1.
+
+    Parameters
+    ----------
+    descriptors : tuple of Descriptor
+        A metric and a signature each.
+    vocabularies : tuple of Vocabulary
+        Words for each of them, as `gmds.retrieval.learned` finds them.
+
+    See Also
+    --------
+    retrieve : Ranks a collection.
+
+    References
+    ----------
+    Table 1; A. M. Bronstein, M. M. Bronstein, L. J. Guibas and M. Ovsjanikov, "Shape Google", ACM Trans. Graph. 30
+    (2011).
     """
 
     descriptors: tuple[Descriptor, ...]
     vocabularies: tuple[Vocabulary, ...]
 
     def __call__(self, mesh: Mesh) -> Floats:
-        """The bag of a mesh. Raises `MeshError` or `EigensolverFailed` where a metric cannot be measured."""
+        """The bag of a mesh.
+
+        Parameters
+        ----------
+        mesh : Mesh
+            The shape; it is mended first.
+
+        Returns
+        -------
+        array of shape (words of all vocabularies,)
+            Non-negative, with sum 1.
+
+        Raises
+        ------
+        MeshError
+            Where a metric cannot be measured.
+        EigensolverFailed
+            E402.
+        """
         return self.of(signatures_of(mesh, self.descriptors))
 
     def of(self, parts: Sequence[Described]) -> Floats:
-        """The bag of a mesh from what the descriptors say of it."""
+        """The bag of a mesh from its signatures.
+
+        Parameters
+        ----------
+        parts : sequence of Described
+            For each descriptor the signatures of all vertices, as `gmds.retrieval.signatures_of` gives them.
+
+        Returns
+        -------
+        array of shape (words of all vocabularies,)
+            Non-negative, with sum 1.
+        """
         found = [bag(v.assign(part.values), part.mass) for v, part in zip(self.vocabularies, parts, strict=True)]
         return np.concatenate(found) / len(found)
 

@@ -20,11 +20,11 @@ from geodesics import (
 from geodesics.arrays import Floats
 from gmds.retrieval.mending import mended
 
+# all chosen on the classes DEVELOPMENT of examples/paper/table1_retrieval.py
 EIGENPAIRS = 120
-# chosen on half of the classes of examples/paper/table1_retrieval.py; times in units of the area
-HEAT_TIMES = np.geomspace(0.002, 0.1, 12)
-LOG_TIMES = np.geomspace(0.001, 1, 64)
-FREQUENCIES = 6
+HEAT_TIMES = np.geomspace(0.002, 0.1, 12)  # in units of the area
+LOG_TIMES = np.geomspace(0.001, 1, 64)  # in units of the area
+FREQUENCIES = 6  # of the logarithm of time, the lowest ones
 
 
 @dataclass(frozen=True)

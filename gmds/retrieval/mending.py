@@ -10,9 +10,10 @@ from geodesics.arrays import Floats, Integers
 from geodesics.topology.components import largest_component
 from geodesics.topology.edges import edge_keys, twice_given
 
+# all three chosen on the classes DEVELOPMENT of examples/paper/table1_retrieval.py
 LARGEST_HOLE = 0.5  # perimeter, in units of sqrt(area): what is longer is the edge of the surface
 SPIKE = 0.75  # how far a vertex is from the middle of its neighbours, in units of their r.m.s. distance from it
-SMOOTHING_STEPS = 10
+SMOOTHING_STEPS = 10  # there and back
 
 
 def mended(mesh: Mesh) -> Mesh:

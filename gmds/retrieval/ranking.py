@@ -26,10 +26,38 @@ class Ranking:
 
 
 def retrieve(query: Mesh, collection: Sequence[Mesh], features: Callable[[Mesh], ArrayLike] | None = None) -> Ranking:
-    """The collection ranked by likeness to the query, whatever the pose and the sizes of parts (Table 1).
+    """A collection ranked by likeness to a query, whatever the poses and the sizes of parts (Table 1).
 
-    `features` makes a vector of a mesh, for instance a `BagOfFeatures`; by default one with words from the query and
-    the collection. Equals are in the order of the collection. Raises `MeshError` for a mesh that cannot be measured.
+    Parameters
+    ----------
+    query : Mesh
+        What is looked for.
+    collection : sequence of n meshes
+        Where it is looked for.
+    features : function Mesh -> array, optional
+        Makes a vector of a mesh; by default a `BagOfFeatures` whose words come from the query and the collection.
+
+    Returns
+    -------
+    Ranking
+        `order` (n,), the numbers of the collection, the most alike first and equals as they were; `distances` (n,), the
+        L1 distances of the vectors.
+
+    Raises
+    ------
+    MeshError
+        For a mesh that cannot be measured.
+    EigensolverFailed
+        E402.
+
+    See Also
+    --------
+    BagOfFeatures : To learn words once and use them for many queries.
+
+    References
+    ----------
+    Table 1; A. M. Bronstein, M. M. Bronstein, L. J. Guibas and M. Ovsjanikov, "Shape Google", ACM Trans. Graph. 30
+    (2011).
     """
     meshes = [query, *collection]
     if features is not None:

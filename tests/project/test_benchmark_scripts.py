@@ -45,6 +45,14 @@ def test_published_results_can_be_read(scripts: Any) -> None:
         assert scripts("runs").read_rows(path, "none") == {}
 
 
+def test_mutation_testing_knows_its_modules_and_their_tests() -> None:
+    mutants = importlib.import_module("benchmarks.mutation.mutants")
+    for module, names in mutants.MODULES.items():
+        assert len(mutants.source(module).splitlines()) > 5, module
+        assert all(list((ROOT / "tests").rglob(f"{name}.py")) for name in names), module
+    assert mutants.read(SCRIPTS / "results" / "mutants.csv").keys() >= set()
+
+
 def test_what_is_in_the_table_is_not_run_again(scripts: Any, tmp_path: Path) -> None:
     runs, path = scripts("runs"), tmp_path / "rows.csv"
     runs.write_rows(path, "abc", {("match", "a-b"): ROW})

@@ -26,11 +26,29 @@ ALL: tuple[Reader, ...] = (
 
 
 def dataset_pairs(folder: Path, listing: Path | None = None) -> list[Pair]:
-    """The pairs of a benchmark folder, in the published order, or those named in the file `listing`.
+    """The pairs of a published benchmark, recognised by what is in its folder.
 
-    Known: `corres/*.vts` with `test_pairs.txt` (remeshed FAUST and TOSCA), `pairs.json` (locally scaled pairs),
-    `models` + `gts` + `test-sets` (SHREC'20). A listing has two shape names a line; for `pairs.json`, one pair name.
-    Raises `UnknownDataset`.
+    Parameters
+    ----------
+    folder : Path
+        With `corres/*.vts` and `test_pairs.txt` (remeshed FAUST and TOSCA), `pairs.json` (locally scaled pairs), or
+        `models`, `gts` and `test-sets` (SHREC'20).
+    listing : Path, optional
+        A file that names the pairs to take: two shapes a line, or one pair of `pairs.json`.
+
+    Returns
+    -------
+    list of Pair
+        In the published order, or in that of the listing.
+
+    Raises
+    ------
+    UnknownDataset
+        E230, for another folder, or a listing that names what is not there.
+
+    See Also
+    --------
+    gmds.benchmarking.benchmark : Runs a matcher on them.
     """
     folder = Path(folder)
     for pairs_of in ALL:

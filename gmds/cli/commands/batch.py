@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from gmds.batch.cycles import Consistency
 
 PATH = click.Path(path_type=Path)
-TOLD = 20  # failures that are named on stderr; the rest are in the summary
-SHOWN = 5  # cycles, and pairs to blame
+TOLD = 20  # failures that are named on stderr, what a screen takes; the rest are in the summary
+SHOWN = 5  # cycles, and pairs to blame; set by hand
 SHARES = ("within_005", "within_010")
 
 

@@ -13,7 +13,7 @@ from gmds.cli.output import emit, json_option
 if TYPE_CHECKING:
     from geodesics.errors import Note
 
-SHOWN = 6  # of the faces or vertices that a finding means
+SHOWN = 6  # of the faces or vertices that a finding means: as many as a line takes
 
 
 @click.command(cls=Command, short_help="Say what is wrong with a mesh.")

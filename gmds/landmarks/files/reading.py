@@ -7,12 +7,12 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
+from gmds.files.table import NUMBER
 from gmds.files.text import read_text
 from gmds.landmarks.files.named_points import BadLandmarkFile, Landmarks
 
-LARGEST = 50_000_000  # bytes of a landmark file: a bound on memory
-WHOLE = r"[+-]?\d{1,18}"
-NUMBER = r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?"
+LARGEST = 50_000_000  # bytes of a landmark file: a bound on memory, half a million landmarks
+WHOLE = r"[+-]?\d{1,18}"  # 18 digits always fit into int64
 
 
 def landmark_text(path: Path) -> str:
@@ -25,7 +25,7 @@ def landmark_text(path: Path) -> str:
 
 def is_number(word: str) -> bool:
     """Whether a word is a plain decimal number."""
-    return re.fullmatch(NUMBER, word.strip(), re.ASCII) is not None
+    return NUMBER.fullmatch(word.strip()) is not None
 
 
 def position(path: Path, line: int, words: Sequence[str]) -> list[float]:

@@ -15,8 +15,9 @@ from gmds.cli.fields import PICTURES
 from gmds.errors import PictureFormat, RenderingError
 from gmds.pictures.camera import alignment, broadside
 from gmds.pictures.colours import css, label_colours, position_colours, value_colours
+from gmds.pictures.figure import FORMATS
 from gmds.pictures.offscreen import offscreen
-from gmds.pictures.panels import FORMATS, map_panels, write_picture, write_values
+from gmds.pictures.panels import map_panels, write_picture, write_values
 from gmds.pictures.software import Shot, render, software, view_rotation
 from gmds.shapes import quadruped, truth
 
