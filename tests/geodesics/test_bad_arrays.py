@@ -1,4 +1,4 @@
-"""Arrays at the door, by row of the reliability table (V01-V16): a typed error naming the culprit, or the mesh."""
+"""Arrays given by callers, by row of the reliability table (V01-V16): an error naming the culprit, or the mesh."""
 
 from __future__ import annotations
 

@@ -123,7 +123,7 @@ def test_notes_do_not_depend_on_scale_or_place(scale: float) -> None:
     assert {(x.code, x.indices) for x in check(moved(mesh, scale))} == {(x.code, x.indices) for x in check(mesh)}
 
 
-def test_far_from_the_origin_is_told() -> None:
+def test_far_from_the_origin_is_reported() -> None:
     mesh = icosphere(2)
     assert "W208" not in notes(Mesh(mesh.vertices + 1e8, mesh.faces))
     assert "W208" in notes(Mesh(mesh.vertices + 1e10, mesh.faces))

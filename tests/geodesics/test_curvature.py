@@ -1,4 +1,4 @@
-"""Curvature: to the letter, and smoothed."""
+"""Curvature: exactly as in (4.5), and smoothed."""
 
 from __future__ import annotations
 

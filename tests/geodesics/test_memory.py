@@ -1,4 +1,4 @@
-"""Row G28: a table that does not fit is refused before it is taken, with what it needs and what to do."""
+"""Row G28: a table that does not fit is refused before it is allocated, with its size and what to do instead."""
 
 from __future__ import annotations
 

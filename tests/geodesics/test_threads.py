@@ -1,4 +1,4 @@
-"""Matching runs BLAS on one thread, gives the threads back, and says the same whatever their number."""
+"""Matching runs BLAS on one thread, restores the number of threads, and gives the same whatever it is."""
 
 from __future__ import annotations
 

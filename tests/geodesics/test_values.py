@@ -1,4 +1,4 @@
-"""What holds arrays: it stays as it was made, is equal to itself alone, and can be a key."""
+"""Objects that hold arrays never change, are equal to themselves alone, and can be keys."""
 
 from __future__ import annotations
 

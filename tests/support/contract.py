@@ -45,7 +45,7 @@ ROWS: dict[str, str] = {
     "G17": "test_matching::test_the_mirrored_map_of_an_animal_is_a_candidate",
     "G18": "test_matching::test_the_map_of_a_surface_to_itself_is_the_identity",
     "G19": "test_matching_invariance",
-    "G20": "test_odd_shapes, test_check::test_far_from_the_origin_is_told, "
+    "G20": "test_odd_shapes, test_check::test_far_from_the_origin_is_reported, "
            "test_matching_invariance::test_far_from_the_origin_the_map_is_the_same",
     "G21": "test_odd_shapes, test_spectrum::test_tiny_meshes_give_what_they_have",
     "G22": "test_bad_arrays",

@@ -1,4 +1,4 @@
-"""Writing a file whole or not at all, and what is no file not as one."""
+"""A file is written completely or not at all; devices and pipes are never replaced."""
 
 from __future__ import annotations
 

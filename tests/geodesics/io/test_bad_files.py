@@ -1,4 +1,4 @@
-"""Files at the door, by row of the reliability table (F01-F17, S01, S03): a typed error, or the mesh."""
+"""Files that callers give, by row of the reliability table (F01-F17, S01, S03): a typed error, or the mesh."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def test_f07_a_tosca_shape_without_its_other_half(tmp_path: Path) -> None:
             read_mesh(tmp_path / name)
 
 
-def test_f09_polygons_are_split_about_their_first_corner_and_that_is_told(tmp_path: Path) -> None:
+def test_f09_polygons_are_split_about_their_first_corner_and_that_is_reported(tmp_path: Path) -> None:
     quads = "OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n4 0 1 2 3\n3 1 4 2\n"
     (tmp_path / "a.off").write_text(quads)
     mesh, notes = read_with_notes(tmp_path / "a.off")
@@ -119,7 +119,7 @@ def test_f11_negative_obj_indices_count_back_from_the_vertices_so_far(tmp_path: 
     assert read_mesh(tmp_path / "a.obj").faces.tolist() == [[0, 1, 2], [0, 2, 3]]
 
 
-def test_f13_stl_corners_are_welded_exactly_and_that_is_told(tmp_path: Path) -> None:
+def test_f13_stl_corners_are_welded_exactly_and_that_is_reported(tmp_path: Path) -> None:
     (tmp_path / "a.stl").write_bytes(STL_BINARY)
     mesh, notes = read_with_notes(tmp_path / "a.stl")
     assert mesh.n_vertices == 4 and [note.code for note in notes] == ["W211"]

@@ -1,4 +1,4 @@
-"""Files as short as can be, as long as they come, and what is left where a file is written."""
+"""The shortest and the longest files, and what remains where writing a file fails."""
 
 from __future__ import annotations
 

@@ -64,7 +64,7 @@ def test_stl_keeps_the_triangles_in_single_precision(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("suffix", [".stl", ".glb"])
-def test_what_single_precision_can_not_hold_is_refused(tmp_path: Path, suffix: str) -> None:
+def test_what_single_precision_cannot_hold_is_refused(tmp_path: Path, suffix: str) -> None:
     big = Mesh(icosphere(1).vertices * 1e40, icosphere(1).faces)
     with pytest.raises(MeshError, match="E102"):
         write_mesh(big, tmp_path / f"mesh{suffix}")

@@ -1,4 +1,4 @@
-"""Repair, decimation, remeshing, hole filling: better meshes with a way back, or a clear refusal."""
+"""Repair, decimation, remeshing, hole filling: better meshes with index arrays, or a clear refusal."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def test_a_welded_vertex_became_the_one_it_was_welded_to() -> None:
     assert np.array_equal(result.mesh.faces, result.new_vertex[soup.faces])
 
 
-def test_what_was_asked_for_is_told_and_counted() -> None:
+def test_what_was_asked_for_is_reported_and_counted() -> None:
     result = repair(joined(bow_tie().mesh, icosphere(0)), cut=True, largest=True)
     assert {note.code: note.count for note in result.notes} == {"W213": 1, "W216": 340}
     assert all(note.message.startswith(f"{note.count} ") for note in result.notes)
@@ -101,7 +101,7 @@ def test_decimation_of_open_and_broken_meshes() -> None:
     assert np.linalg.norm(broken(icosphere(2)).vertices[coarse.vertex], axis=1).max() < 1.001
 
 
-def test_decimation_refuses_what_it_can_not_do() -> None:
+def test_decimation_refuses_what_it_cannot_do() -> None:
     mesh = icosphere(1)
     branch = Mesh(np.vstack([mesh.vertices, [3, 0, 0]]), np.vstack([mesh.faces, [*mesh.faces[0, :2], 42]]))
     with pytest.raises(MeshError, match="E110"):

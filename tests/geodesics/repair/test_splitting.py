@@ -1,4 +1,4 @@
-"""Cutting meshes apart where they are no surface: there and nowhere else, and what goes on flat stays together."""
+"""Cutting meshes where they are no manifold, there and nowhere else; faces that continue each other stay together."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""gmds deform: what it writes is what the library makes, and its truth is one."""
+"""gmds deform: its files hold what the library computes, and the truth is exact."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ def test_misuse_names_the_word(path: Path, tmp_path: Path, kind: str, message: s
     assert result.exit_code == 2 and message in result.stderr and not (tmp_path / "x.ply").exists()
 
 
-def test_what_can_not_be_done_is_one_line(path: Path, tmp_path: Path) -> None:
+def test_what_cannot_be_done_is_one_line(path: Path, tmp_path: Path) -> None:
     for kind in ("scale:factor=-1", "micro-holes:radius=9"):
         result = run(path, kind, "-o", tmp_path / "x.ply")
         assert result.exit_code == 1 and len(result.stderr.splitlines()) == 1, result.output

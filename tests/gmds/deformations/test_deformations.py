@@ -1,4 +1,4 @@
-"""Deformations do what they say, and their truth is true."""
+"""Deformations do what their names say, and their truth is exact."""
 
 from __future__ import annotations
 
