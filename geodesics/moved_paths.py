@@ -6,7 +6,6 @@ import importlib
 import sys
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from types import ModuleType
 from typing import Any
@@ -29,8 +28,11 @@ MOVED: Mapping[str, tuple[str, ...]] = {
 }
 
 
-class MovedModules(MetaPathFinder, Loader):
-    """Finds modules by their old paths; each gives the names that are now in the modules of the new paths."""
+class MovedModules:
+    """Finds modules by their old paths; each gives the names that are now in the modules of the new paths.
+
+    A finder and a loader without the base classes of `importlib.abc`, which import thirty more modules.
+    """
 
     def __init__(self, moved: Mapping[str, tuple[str, ...]]) -> None:
         self.moved = moved
@@ -39,7 +41,7 @@ class MovedModules(MetaPathFinder, Loader):
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
         """Called after all other finders, so only for modules that do not exist."""
-        return ModuleSpec(fullname, self, is_package=True) if fullname in self.moved else None
+        return ModuleSpec(fullname, self, is_package=True) if fullname in self.moved else None  # type: ignore[arg-type]
 
     def create_module(self, spec: ModuleSpec) -> None:
         """An empty module, as usual."""

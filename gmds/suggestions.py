@@ -1,4 +1,4 @@
-"""The checks at the door of the matcher: sample counts and names of options (for landmarks see `landmarks`)."""
+"""Unknown names of options, and the nearest known one in the message."""
 
 from __future__ import annotations
 

@@ -66,7 +66,7 @@ def _git(*arguments: str) -> str:
 
 
 def run(job: Job, path: Path, version: str, workers: int) -> Rows:
-    """The rows of a job, those in the CSV at `path` among them; told on stderr, and written there, as they come."""
+    """The rows of a job, those in the CSV at `path` among them; reported on stderr, and written there, as they come."""
     os.environ.update(ONE_THREAD)  # read by the workers, which start afresh
     stored = read_rows(path, version)
     wanted = [(matcher, pair.name) for pair in job.pairs for matcher in job.matchers]
@@ -87,7 +87,7 @@ def run(job: Job, path: Path, version: str, workers: int) -> Rows:
 
 
 def judge(find: Callable[[str], Matcher], folder: str, matcher: str, name: str) -> BenchmarkRow:
-    """One row, in a worker; a fault of the matcher is told in it, so that the other pairs are still run."""
+    """One row, in a worker; a fault of the matcher is recorded in it, so that the other pairs are still run."""
     pair = _by_name(folder)[name]
     warm_up(find, matcher)
     try:
@@ -137,7 +137,7 @@ def chosen_pairs(name: str, half: str | None, every: int) -> list[Pair]:
 
 
 def arguments(description: str | None, sets: Iterable[str], every: int | None = 1) -> argparse.ArgumentParser:
-    """What all scripts can be told on the command line."""
+    """The command-line options that all scripts share."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--sets", type=_set_names, default=list(sets), help="names, separated by commas")
     parser.add_argument("--half", choices=HALVES, help="pairs of one half only (default: both)")

@@ -13,8 +13,8 @@ from gmds.maps.point_map import MatchStatus
 Sections = Mapping[str, Sequence[BenchmarkRow]]
 Summary = Callable[[list[float]], float]
 
-WRONG = 15.0  # mean error x100 above which a map is wrong as a whole; a convention
-LOOKED_AT = 10.0  # likewise, above which a pair is listed by name
+WRONG_ABOVE = 15.0  # mean error x100 above which a map is wrong as a whole; a convention
+LISTED_ABOVE = 10.0  # likewise, above which a pair is listed by name
 GOALS = {
     "scaled, self": "<= 2.0",
     "scaled, pose": "<= 3.5",
@@ -87,8 +87,8 @@ def halves(found: Sections, development: Collection[str]) -> list[str]:
 def statuses(found: Sections) -> list[str]:
     """How often a map that is wrong as a whole says so, and how often one that is right cries wolf."""
     head = [
-        "set", f"pairs above {WRONG:.0f}", "not GOOD", "detected",
-        f"pairs up to {WRONG:.0f}", "not GOOD", "false alarms",
+        "set", f"pairs above {WRONG_ABOVE:.0f}", "not GOOD", "detected",
+        f"pairs up to {WRONG_ABOVE:.0f}", "not GOOD", "false alarms",
     ]  # fmt: skip
     together = [row for rows in found.values() for row in rows]
     lines = []
@@ -96,7 +96,7 @@ def statuses(found: Sections) -> list[str]:
         judged = [row for row in rows if row.direct is not None]
         line = [label]
         for wrong in (True, False):
-            members = [row for row in judged if ((row.direct or 0.0) > WRONG) == wrong]
+            members = [row for row in judged if ((row.direct or 0.0) > WRONG_ABOVE) == wrong]
             doubted = sum(row.status != MatchStatus.GOOD.name for row in members)
             share = f"{100 * doubted / len(members):.0f} %" if members else "-"
             line += [f"{len(members)}", f"{doubted}", share]
@@ -105,7 +105,7 @@ def statuses(found: Sections) -> list[str]:
 
 
 def missing_parts(found: Sections) -> list[str]:
-    """Whether `valid` tells what has a counterpart from what has none, where the data knows of both."""
+    """Whether `valid` distinguishes points with a counterpart from those without one, where the data knows of both."""
     head = ["set", "pairs", "with counterpart, valid %", "without, not valid %", "pairs with such"]
     lines = []
     for label, rows in found.items():
@@ -118,7 +118,7 @@ def missing_parts(found: Sections) -> list[str]:
 
 def failures(found: Sections) -> list[str]:
     """The pairs that failed or whose error is large, worst first."""
-    bad = [(label, row) for label, rows in found.items() for row in rows if _error(row) > LOOKED_AT]
+    bad = [(label, row) for label, rows in found.items() for row in rows if _error(row) > LISTED_ABOVE]
     bad.sort(key=lambda item: -_error(item[1]))
     lines = [[label, row.pair, number([row], "direct"), number([row], "sym"), row.status] for label, row in bad]
     return table(["set", "pair", "direct", "sym", "status"], lines)

@@ -1,4 +1,4 @@
-"""Child process of `faults.py`: runs cases through one entry point and tells what came of each, a line of JSON a case.
+"""Child process of `faults.py`: runs cases through one entry point; a line of JSON for each outcome.
 
 What a library prints goes to the file named last on the command line, whatever layer it is written in.
 """
@@ -24,7 +24,7 @@ MEMORY = 6 << 30  # bytes of address space: a bound
 
 
 def main() -> None:
-    """`fault_child.py ENTRY_POINT PRINTED`, one case a line on stdin."""
+    """`child.py ENTRY_POINT PRINTED`, one case a line on stdin."""
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     tell = os.fdopen(os.dup(1), "w", buffering=1)

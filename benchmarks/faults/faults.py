@@ -5,7 +5,7 @@
 
 Every entry point of a library runs in child processes of its own (6 GB, 10 s of processor time a case); when one dies
 the case is run again in a fresh one. Writes results/faults.csv (a row a case and entry point) and results/faults.md
-after each library. `fault_judge.py` says what counts as what; exit code 1 when this project fails a case. Which of
+after each library. `judge.py` says what counts as what; exit code 1 when this project fails a case. Which of
 their faults crash and which answer with foreign memory may differ from run to run.
 """
 

@@ -3,7 +3,7 @@
 | class | means |
 |---|---|
 | right | an answer, and the right one (below) |
-| clear error | an exception whose message names the fault (a word of `NAMES_IT` in `fault_cases.py`) or the line |
+| clear error | an exception whose message names the fault (a word of `NAMES_IT` in `cases.py`) or the line |
 | unclear error | any other exception, or a wrong answer with an explanation printed beside it |
 | not finite, silently | any other answer with NaN or infinity in it |
 | wrong, silently | any other answer: foreign memory, 0 where unreachable, a part of the faces |
@@ -14,7 +14,7 @@ Right distances: within 5 % of the reference in the mean (50 % on less than ten 
 +inf, NaN, negative, or beyond any distance. A right Laplacian: finite, symmetric, constants in its kernel, coordinates
 with an energy of up to twice the area, leaving out vertices on no face. A right file: its own arrays in its own order,
 up to the rounding of float32; STL by the corners of faces. Nobody has to refuse what this project refuses: an input
-that can be taken to mean something (`fault_meanings.py`: what lies under a mask, a quad along either diagonal, huge
+that can be taken to mean something (`meanings.py`: what lies under a mask, a quad along either diagonal, huge
 coordinates, NaN in a file) is answered rightly when the answer is right for it, and a broken file also when it is read
 as what it was before. `None` with an explanation printed beside it is an error with that message. What goes wrong
 silently is run again in a fresh process and another order, and the kinder class counts.

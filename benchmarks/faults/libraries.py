@@ -1,4 +1,4 @@
-"""What each library is asked in the fault table, one function an entry point; `fault_child.py` runs them.
+"""What each library is asked in the fault table, one function for each entry point; `child.py` runs them.
 
 Arrays go in as the case has them: what a library makes of them is what is measured.
 """

@@ -2,7 +2,7 @@
 
     GMDS_DATA=... python -m benchmarks.scale.scale [--meshes DIR] [--sizes 5k,44k] [--tasks eigenpairs,marching]
 
-Every figure is of a process of its own (`scale_tasks.py`), one by one: CPU seconds on one thread after a warm-up,
+Every figure is of a process of its own (`tasks.py`), one by one: CPU seconds on one thread after a warm-up,
 wall seconds where two threads work, peak memory. Peers (potpourri3d, libigl, pymeshlab, scipy) that are missing are
 named and left out. Meshes are made once and kept in DIR. Measurements are added to results/scale.csv, where a later one
 of the same task and size replaces an earlier one, and results/scale.md is written from it.
@@ -58,7 +58,7 @@ Rows = dict[tuple[str, str], Mapping[str, str]]
 
 
 def measure(task: str, size: str, folder: Path) -> Mapping[str, str] | None:
-    """One row, from a process of its own; None where it failed, which is told."""
+    """One row, from a process of its own; None where it failed, which is reported on stderr."""
     path = mesh_path(size, folder)
     command = [sys.executable, "-m", "benchmarks.scale.tasks", task, str(path)]
     done = subprocess.run(command, env={**THREADS, **os.environ}, capture_output=True, text=True, check=False)
@@ -126,7 +126,7 @@ def page(rows: Rows) -> str:
 
 
 def main() -> None:
-    """Measure what is asked, and write both files after each measurement."""
+    """Measure the tasks that were chosen, and write both files after each measurement."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--meshes", type=Path, default=Path(tempfile.gettempdir()) / "gmds_scale")
     parser.add_argument("--sizes", default=",".join(SIZES))

@@ -15,7 +15,7 @@ from gmds.batch.pair_choice import Choice, Pairs, all_pairs
 from gmds.batch.pair_list import read_list
 from gmds.files.folders import mesh_files
 
-LONGEST = 100  # bytes of a name: two of them and a little more make the name of a file, which may have 255
+LONGEST_NAME = 100  # bytes of a name: two of them and a little more make the name of a file, which may have 255
 Given = str | os.PathLike[str] | Mapping[str, Mesh | str | os.PathLike[str]] | Sequence[str | os.PathLike[str]]
 
 
@@ -99,7 +99,7 @@ def _digest(text: str) -> str:
 
 def _plain(text: str) -> str:
     kept = re.sub(r"_{2,}", "_", re.sub(r"[^\w.-]", "_", text)).strip("_").lstrip(".-") or "shape"
-    return kept.encode("utf-8", "ignore")[:LONGEST].decode("utf-8", "ignore").strip("_")
+    return kept.encode("utf-8", "ignore")[:LONGEST_NAME].decode("utf-8", "ignore").strip("_")
 
 
 def _checked(name: str) -> str:

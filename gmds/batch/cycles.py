@@ -17,7 +17,7 @@ Pair = tuple[str, str]
 Route = tuple[str, str, str]
 
 # triangles of shapes that are looked at, a bound of time; of more, as many are drawn at random, the same every time
-MOST = 20_000
+MOST_TRIANGLES = 20_000
 FEW_SHAPES = 100  # up to which all triangles are listed before any are drawn: at most 161,700, 100 over 3
 
 
@@ -99,7 +99,7 @@ class Consistency:
 def consistency(
     pairs: Sequence[Pair],
     load: Callable[[Pair], CarriedMap],
-    most: int = MOST,
+    most: int = MOST_TRIANGLES,
     progress: Callable[[float], None] | None = None,
 ) -> Consistency:
     """How well the maps of `pairs`, as `load` gives them, agree around triangles of shapes, at most `most` of them."""

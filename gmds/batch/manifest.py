@@ -44,7 +44,7 @@ def _is_cut_short(path: Path) -> bool:
 
 
 def event(record: Any) -> dict[str, Any]:
-    """What the manifest tells of a record: what is known of it."""
+    """The fields of a record that are known, as the manifest has them."""
     return {key: value for key, value in asdict(record).items() if value is not None and value != ""}
 
 

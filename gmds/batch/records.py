@@ -1,4 +1,4 @@
-"""What happened to each shape and each pair, and how it is told."""
+"""What happened to each shape and each pair: the records that manifest and summary are written from."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 from gmds.batch.cycles import Consistency
 
 TIMED_OUT, WORKER_DIED, UNEXPECTED, NO_MEMORY, UNREADABLE = "E504", "E505", "E500", "E501", "E202"
-UNDONE = ("failed", "missing")  # the statuses of pairs without a map
+WITHOUT_MAP = ("failed", "missing")  # the statuses of pairs without a map
 
 
 @dataclass(frozen=True)
@@ -22,7 +22,7 @@ class Failure:
 
     @classmethod
     def of(cls, error: BaseException) -> Failure:
-        """The failure that an exception tells of."""
+        """The failure that an exception reports."""
         reason = str(error) or type(error).__name__
         code = getattr(error, "code", None)
         if isinstance(code, str):
@@ -108,7 +108,7 @@ class Batch:
     @property
     def failed(self) -> tuple[PairRecord, ...]:
         """Pairs without a map."""
-        return tuple(pair for pair in self.pairs if pair.status in UNDONE)
+        return tuple(pair for pair in self.pairs if pair.status in WITHOUT_MAP)
 
     def map_file(self, pair: PairRecord) -> Path:
         """Where the map of a pair is."""

@@ -1,4 +1,4 @@
-"""match_collection(): all pairs that are asked for, side by side, into a folder that a later run can go on with."""
+"""match_collection(): many pairs in parallel, into a folder from which a later run resumes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from gmds.batch.existing_maps import Expected, pair_record
 from gmds.batch.lock import only_run
 from gmds.batch.manifest import Manifest, event, write_summary
 from gmds.batch.pair_choice import Choice, Pairs
-from gmds.batch.records import UNDONE, Batch, Failure, PairRecord, ShapeRecord
+from gmds.batch.records import WITHOUT_MAP, Batch, Failure, PairRecord, ShapeRecord
 from gmds.batch.store import Store
 from gmds.batch.tasks import PairJob, ShapeJob, match_pair, measure_shape
 from gmds.batch.workers import local_client, outcomes
@@ -179,7 +179,7 @@ class _Run:
 
     def agree(self) -> None:
         """Take the maps around triangles of shapes, and blame those that lead astray."""
-        done = [pair for pair in self.result().pairs if pair.status not in UNDONE]
+        done = [pair for pair in self.result().pairs if pair.status not in WITHOUT_MAP]
         report = lambda share: self.progress("going around triangles", 1 - CYCLES + CYCLES * share)  # noqa: E731
         self.consistency = agreement(self.folder / "pairs", self.store, self.shapes, done, report)
         write_cycles(self.folder / "cycles.csv", self.consistency)

@@ -19,9 +19,9 @@ Result = TypeVar("Result")
 
 # all four set by hand; no map depends on them
 TRIES = 3  # workers that may die of a task before it is given up
-LOST = 30  # seconds that a worker may take to come back, after which it is replaced
-OFTEN = 1.0  # seconds between two counts of the threads
-PATIENCE = 5.0  # seconds between two looks at the workers while nothing is done
+LOST_AFTER = 30  # seconds that a worker may take to come back, after which it is replaced
+COUNT_EVERY = 1.0  # seconds between two counts of the threads
+LOOK_EVERY = 5.0  # seconds between two looks at the workers while nothing is done
 INSTALL = "a batch needs dask.distributed; install it with: pip install 'gmds[batch]'"
 
 
@@ -37,7 +37,7 @@ def local_client(workers: int | None = None) -> Iterator[Any]:
 
     settings = {
         "distributed.scheduler.allowed-failures": TRIES - 1,
-        "distributed.deploy.lost-worker-timeout": f"{LOST} s",
+        "distributed.deploy.lost-worker-timeout": f"{LOST_AFTER} s",
     }
     with contextlib.ExitStack() as stack:
         stack.enter_context(dask.config.set(settings))
@@ -67,7 +67,7 @@ def remote_client(address: str) -> Iterator[Any]:
 
 
 def quiet() -> None:
-    """Keeps the log of dask to itself, in a process that tells what failed and that is interrupted without a word."""
+    """Keeps the log of dask to itself, in a process that reports failures itself and may be interrupted."""
     _distributed()  # its import sets levels
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
 
@@ -80,10 +80,10 @@ def outcomes(
     Jobs are taken as workers become free, so there may be any number of them. When the caller stops, so do they.
     """
     waiting, running = iter(jobs), dict[Any, Job]()
-    threads, asked = 0, time.monotonic() - 2 * OFTEN
+    threads, asked = 0, time.monotonic() - 2 * COUNT_EVERY
     try:
         while True:
-            if time.monotonic() > asked + OFTEN:
+            if time.monotonic() > asked + COUNT_EVERY:
                 threads, asked = max(1, sum(client.nthreads().values())), time.monotonic()
             for job in itertools.islice(waiting, max(0, threads - len(running))):
                 running[client.submit(function, job, pure=False)] = job
@@ -96,11 +96,11 @@ def outcomes(
 
 
 def _finished(client: Any, futures: list[Any]) -> Iterable[Any]:
-    """Those of the futures that are done, if any is within `PATIENCE` seconds; else lost workers are replaced."""
+    """Those of the futures that are done, if any is within `LOOK_EVERY` seconds; else lost workers are replaced."""
     from distributed import wait
 
     try:
-        done: Iterable[Any] = wait(futures, timeout=PATIENCE, return_when="FIRST_COMPLETED").done
+        done: Iterable[Any] = wait(futures, timeout=LOOK_EVERY, return_when="FIRST_COMPLETED").done
     except TimeoutError:
         if isinstance(client.cluster, _distributed().LocalCluster):  # forgets a worker that was killed as it started
             client.cluster.scale(len(client.cluster.worker_spec))
@@ -109,7 +109,7 @@ def _finished(client: Any, futures: list[Any]) -> Iterable[Any]:
 
 
 def _ignore_interrupts() -> None:
-    """Ctrl-C in a terminal reaches all processes; the first one tells the workers what to do."""
+    """Ctrl-C in a terminal reaches all processes; the first one instructs the workers."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 

@@ -28,7 +28,7 @@ tolerance_option = click.option(
 
 
 def given_landmarks(paths: Sequence[Path], space: Any, tolerance: float | None = None) -> Any:
-    """What `match` takes, from no file, one of pairs, or one for each surface; points on one only are told on stderr.
+    """What `match` takes, from no file, one of pairs, or one for each surface; points on one only are named on stderr.
 
     With a tolerance they are soft, but for those whose file says otherwise. Raises `click.UsageError` for more than two
     files.

@@ -12,11 +12,11 @@ from gmds.errors import BadSetting
 from gmds.maps.npz_format import read_meta
 from gmds.provenance import in_words
 
-NEEDED = {"n_samples", "orientation", "rng", "loss", "distance"}  # what every match tells of its parameters
+NEEDED = {"n_samples", "orientation", "rng", "loss", "distance"}  # the parameters that every map records
 
 
 def map_settings(path: Path) -> dict[str, dict[str, Any]]:
-    """Settings by table; what the map was made by is told where it is another version.
+    """Settings by table; the version that made the map is named on stderr where it is another one.
 
     Raises `FormatError` when it is no map, `BadSetting` (E603) for a distance or a loss of a user's own, which the
     command line has no name for.

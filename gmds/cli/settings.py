@@ -86,7 +86,7 @@ def _parsed(path: Path) -> Tables:
 
 
 def _params_of(table: str) -> Iterator[tuple[str, click.Parameter]]:
-    """Keys and parameters of a table; commands are imported when it is asked for."""
+    """Keys and parameters of a table; commands are imported when they are needed."""
     for name in COMMANDS if table == SHARED else (table,):
         for at, key, param in importlib.import_module(f"gmds.cli.commands.{name}").command.settings():
             if at == table:

@@ -62,7 +62,7 @@ def families(names: Sequence[str]) -> list[str]:
 def neighbour_accuracy(matrix: ArrayLike, labels: Sequence[str]) -> float | None:
     """The share of shapes whose nearest other shape has the same label (leave one out); None where no label repeats.
 
-    Shapes that are alone with their label cannot be right, and are not asked.
+    Shapes that are alone with their label cannot be right, and do not count.
     """
     label = np.asarray(labels)
     asked = np.array([np.count_nonzero(label == one) > 1 for one in label], dtype=bool)

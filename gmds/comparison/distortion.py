@@ -16,8 +16,8 @@ from gmds.spectral.sample_maps import SampledPair
 from gmds.surface.view import View
 
 # chosen on the classes CHOSEN_ON of examples/paper/dissimilarity.py
-KEPT = 8  # embeddings that each metric proposes
-DESCENDED = 3  # how many of all embeddings are improved in each metric
+STARTS_PER_METRIC = 8  # embeddings that each metric proposes
+IMPROVED_STARTS = 3  # how many of all embeddings are improved in each metric
 SWEEPS = 6  # a bound: 70 of 72 descents between four shapes of TOSCA and FAUST stop sooner
 
 
@@ -76,7 +76,7 @@ def embedding_distortion(ours: Sequence[View], theirs: Sequence[View]) -> float:
 def _one_way(source: Sequence[View], target: Sequence[View]) -> list[float]:
     """In each metric the least distortion of the maps found from source to target, in whichever metric they started."""
     pairs = [SampledPair.of(*both, sense=0) for both in zip(source, target, strict=True)]
-    found = [(pair, images) for pair in pairs for images in shortlist(pair, initialization.ALL, KEPT)]
+    found = [(pair, images) for pair in pairs for images in shortlist(pair, initialization.ALL, STARTS_PER_METRIC)]
     return [_embedded(pair, found) for pair in pairs]
 
 
@@ -87,7 +87,7 @@ def _embedded(pair: SampledPair, found: Sequence[tuple[SampledPair, Integers]]) 
     ours, theirs = normalised_distances(pair.source, here), normalised_distances(pair.target, there)
     starts = [np.searchsorted(there, other.extended(images, here, there)) for other, images in found]
     first = [np.abs(ours - theirs[np.ix_(start, start)]).mean() for start in starts]
-    return min(descended(ours, theirs, starts[i]) for i in np.argsort(first, kind="stable")[:DESCENDED])
+    return min(descended(ours, theirs, starts[i]) for i in np.argsort(first, kind="stable")[:IMPROVED_STARTS])
 
 
 def descended(ours: Floats, theirs: Floats, images: Integers) -> float:

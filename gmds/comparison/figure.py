@@ -14,9 +14,9 @@ from gmds.comparison.clustering import families, leaf_order, plane_map, tree
 from gmds.pictures.colours import label_colours
 
 # all three set by hand, so that words do not cover each other
-LABELLED = 60  # with more shapes, the map names each family once
-PICTURE = 68  # points (1/72 inch) across a picture of a shape
-WRITTEN = 12  # with more shapes, the matrix is colours alone
+MOST_LABELS = 60  # with more shapes, the map names each family once
+PICTURE_POINTS = 68  # points (1/72 inch) across a picture of a shape
+MOST_NUMBERED = 12  # with more shapes, the matrix is colours alone
 
 
 def comparison_figure(names: Sequence[str], matrix: Floats, pictures: Sequence[Floats] | None = None) -> Any:
@@ -49,7 +49,7 @@ def comparison_figure(names: Sequence[str], matrix: Floats, pictures: Sequence[F
     shown = middle.imshow(matrix[np.ix_(order, order)], cmap="cividis", aspect="auto", interpolation="nearest")
     middle.set_xticks([])
     middle.set_yticks([])
-    if len(names) <= WRITTEN:
+    if len(names) <= MOST_NUMBERED:
         _write_values(middle, matrix[np.ix_(order, order)])
     figure.colorbar(shown, ax=middle, fraction=0.04, pad=0.02)
     _draw_map(right, names, family, plane_map(matrix), colours, title)
@@ -79,13 +79,13 @@ def _draw_pictures(axis: Any, pictures: Sequence[Floats]) -> None:
     """A picture at every leaf of the tree, between it and its name."""
     from matplotlib.offsetbox import AnnotationBbox, OffsetImage
 
-    shift = (0.5 * PICTURE + 4, 0)
+    shift = (0.5 * PICTURE_POINTS + 4, 0)
     for i, picture in enumerate(pictures):
-        image = OffsetImage(picture, zoom=PICTURE / max(picture.shape[:2]))
+        image = OffsetImage(picture, zoom=PICTURE_POINTS / max(picture.shape[:2]))
         place = (0, 10 * i + 5)
         box = AnnotationBbox(image, place, shift, boxcoords="offset points", frameon=False, annotation_clip=False)
         axis.add_artist(box)
-    axis.tick_params(axis="y", pad=PICTURE + 8)
+    axis.tick_params(axis="y", pad=PICTURE_POINTS + 8)
 
 
 def _write_values(axis: Any, matrix: Floats) -> None:
@@ -106,7 +106,7 @@ def _draw_map(
 ) -> None:
     """The map, with the names of all shapes; of many, those of the families, of this size, where they are clear."""
     axis.scatter(*places.T, c=colours, s=26, edgecolors="white", linewidths=0.5)
-    if len(names) <= LABELLED:
+    if len(names) <= MOST_LABELS:
         for name, place, colour in zip(names, places, colours, strict=True):
             _write(axis, name, place, 0.65 * colour, 8)
     else:
@@ -117,7 +117,7 @@ def _draw_map(
             _write(axis, name, ours[clear], 0.6 * colours[label == name][0], size)
     axis.set_aspect("equal", adjustable="datalim")
     axis.set_box_aspect(1)
-    axis.margins(0.2 if len(names) <= LABELLED else 0.1)
+    axis.margins(0.2 if len(names) <= MOST_LABELS else 0.1)
     axis.locator_params(nbins=6)
 
 

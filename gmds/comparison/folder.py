@@ -18,8 +18,7 @@ from geodesics import MeshError, read_mesh
 from geodesics.arrays import Floats
 from geodesics.errors import EigensolverFailed, FormatError
 from geodesics.io import atomic_write
-from gmds.comparison import distortion as morphometry
-from gmds.comparison import profiles
+from gmds.comparison import distortion, profiles
 from gmds.comparison.clustering import nearest
 from gmds.files.table import table_text
 from gmds.maps.npz_format import fingerprint
@@ -30,14 +29,14 @@ Progress = Callable[[str, float], None]
 
 IN_MEMORY = 40  # surfaces whose eigenfunctions are kept at a time: a bound of memory, 1.3 kB a vertex each
 _SETTINGS = f"{profiles.FUNCTIONS} {profiles.EQUAL_AREA_SAMPLES} {profiles.QUANTILES} {SMOOTHING}"
-_EMBEDDING = f"{_SETTINGS} {morphometry.KEPT} {morphometry.DESCENDED} {morphometry.SWEEPS}"
+_EMBEDDING = f"{_SETTINGS} {distortion.STARTS_PER_METRIC} {distortion.IMPROVED_STARTS} {distortion.SWEEPS}"
 
 
 @dataclass(frozen=True, eq=False)
 class Compared:
     """Shapes by name, with `bounds` and `distortions` (k, k): `least_distortion` and `dissimilarity` of every pair.
 
-    Distortions are NaN where no embedding was sought. `failures`: why a file was left out, by its name.
+    Distortions are NaN where no embedding was computed. `failures`: why a file was left out, by its name.
     """
 
     names: tuple[str, ...]
@@ -113,7 +112,7 @@ def _views(path: Path) -> tuple[View, ...]:
 
 
 def _embedded(here: Path, there: Path) -> float:
-    return morphometry.embedding_distortion(_views(here), _views(there))
+    return distortion.embedding_distortion(_views(here), _views(there))
 
 
 def _lines(text: str) -> Iterator[tuple[tuple[str, str, str], float]]:

@@ -1,4 +1,4 @@
-"""The files that tell of a collection of compared shapes: tables, a picture, a page."""
+"""The files that describe a collection of compared shapes: tables, a picture, a page."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from gmds.files.table import write_table
 
 Neighbour = tuple[str, int, str, float, float | None]  # shape, rank, other, bound, distortion
 
-SHOWN = 5  # neighbours of each shape; set by hand
+NEIGHBOURS_SHOWN = 5  # neighbours of each shape; set by hand
 DISTORTION = "the distortion of the best embeddings found of two shapes in each other"
 BOUND = "the bound, which no embedding that keeps area goes below"
 
@@ -36,7 +36,7 @@ def write_comparison(compared: Compared, folder: Path, *, title: str = "Dissimil
     write_table(folder / "matrix.csv", ["", *names], rows)
     neighbours = [
         (name, rank + 1, names[j], float(compared.bounds[i, j]), _known(compared.distortions[i, j]))
-        for i, (name, row) in enumerate(zip(names, nearest(matrix, SHOWN), strict=True))
+        for i, (name, row) in enumerate(zip(names, nearest(matrix, NEIGHBOURS_SHOWN), strict=True))
         for rank, j in enumerate(row)
         if i != j
     ]

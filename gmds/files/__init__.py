@@ -1,1 +1,1 @@
-"""Files of strangers (npz, mat, text, values, folders of meshes), and the one writer of tables."""
+"""Untrusted files (npz, mat, text, values, folders of meshes), and the one writer of tables."""

@@ -1,4 +1,4 @@
-"""MATLAB files of strangers, read in a process of its own: damaged ones can end the process that reads them."""
+"""Untrusted MATLAB files, read in a process of their own: damaged ones can crash the process that reads them."""
 
 from __future__ import annotations
 

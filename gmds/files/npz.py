@@ -1,4 +1,4 @@
-"""Arrays in .npy and .npz files of strangers: nothing is unpickled, and nothing is taken that is not there."""
+"""Arrays in untrusted .npy and .npz files: nothing is unpickled, and a header is checked before its bytes are read."""
 
 from __future__ import annotations
 

@@ -21,7 +21,8 @@ Both = tuple[Drawing, Drawing]
 
 BARS = 40  # of a histogram; set by hand
 THRESHOLDS = np.linspace(0, 0.25, 51)  # errors, over the root of the area: the range in which the field draws curves
-LOST, FOUND = (0.93, 0.60, 0.20), (0.28, 0.47, 0.72)  # sRGB, without and with a counterpart: orange and blue
+UNMATCHED_COLOUR = (0.93, 0.60, 0.20)  # sRGB, orange: without a counterpart
+MATCHED_COLOUR = (0.28, 0.47, 0.72)  # sRGB, blue: with one
 MATCH = (
     "A point and its partner on the other surface have the same colour. Look for a part that has the colour of "
     "another part, a left leg that of a right leg, say: there the map is wrong."
@@ -123,7 +124,7 @@ def _modes(fields: Mapping[str, Floats], n_vertices: int) -> list[dict[str, Any]
             counted = "points" if sparse else "vertices"
             about = {"key": key, "label": label, "help": meaning + sparse, "axis": axis, "counted": counted}
             modes.append({**about, "high": top, "beyond": bool((known > top).any())})
-    swatches = levels(np.array([LOST, FOUND])).tolist()
+    swatches = levels(np.array([UNMATCHED_COLOUR, MATCHED_COLOUR])).tolist()
     modes.insert(
         2 if "distortion" in fields else 1,
         {"key": "valid", "label": "Counterparts", "help": VALID, "swatches": swatches},

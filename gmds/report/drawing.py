@@ -14,8 +14,8 @@ from geodesics.repair.decimation import clustered, decimated
 from geodesics.topology.orientation import orient_faces
 
 # how a browser turns both is in benchmarks/results/page_speed.md
-MOST = 12_000  # vertices up to which a surface is drawn as it is
-DRAWN = 8_000  # vertices, about, of what is drawn of a larger one
+MOST_VERTICES = 12_000  # vertices up to which a surface is drawn as it is
+SIMPLIFIED_VERTICES = 8_000  # vertices, about, of what is drawn of a larger one
 DIAMETER = 0.99  # of the ball that a surface is drawn in; a little less than the axes of the page, whose length is 1
 
 
@@ -35,13 +35,13 @@ class Drawing:
 
 
 def drawing(mesh: Mesh, rotation: Floats) -> Drawing:
-    """The mesh itself up to `MOST` vertices; else a copy of some `DRAWN`, whose vertices stand for the nearest ones."""
+    """The mesh itself up to `MOST_VERTICES`; else a copy with about `SIMPLIFIED_VERTICES`."""
     used = np.unique(mesh.faces)
     v = mesh.vertices[used]
     center = (v.min(axis=0) + v.max(axis=0)) / 2
     axes = rotation * (DIAMETER / 2 / (np.linalg.norm(v - center, axis=1).max() or 1.0))
     oriented = orient_faces(mesh)  # or light would fall on some faces from within
-    if mesh.n_vertices <= MOST:
+    if mesh.n_vertices <= MOST_VERTICES:
         return Drawing(mesh.vertices, oriented.faces, np.arange(mesh.n_vertices), center, axes)
-    copy = decimated(oriented, 2 * DRAWN) or clustered(oriented, MOST)
+    copy = decimated(oriented, 2 * SIMPLIFIED_VERTICES) or clustered(oriented, MOST_VERTICES)
     return Drawing(copy.vertices, copy.faces, used[cKDTree(v).query(copy.vertices)[1]], center, axes)

@@ -13,7 +13,7 @@ from gmds.pictures.software import software
 from gmds.report.tables import facts, table_rows
 
 PIXELS = 260  # across each view, so that three of them fit into a cell; set by hand
-LARGE = 200_000  # faces of both surfaces, above which there is no picture: 3 s at 160,000, measured
+MOST_FACES = 200_000  # faces of both surfaces, above which there is no picture: 3 s at 160,000, measured
 
 
 def mimebundle(answer: PointMap) -> dict[str, str]:
@@ -32,7 +32,7 @@ def _table(answer: PointMap) -> str:
 
 def _picture(answer: PointMap) -> str:
     """The picture as an element of a page; nothing where it cannot be drawn, or not soon."""
-    if answer.source.n_faces + answer.target.n_faces > LARGE:
+    if answer.source.n_faces + answer.target.n_faces > MOST_FACES:
         return ""
     try:
         panels = map_panels(answer, pixels=PIXELS)

@@ -19,7 +19,7 @@ from gmds.maps.point_map import PointMap
 from gmds.pictures.camera import Direction, alignment, broadside
 from gmds.pictures.colours import MISSING, css, value_colours
 from gmds.report import tables
-from gmds.report.content import FOUND, LOST, content
+from gmds.report.content import MATCHED_COLOUR, UNMATCHED_COLOUR, content
 from gmds.report.drawing import Drawing, drawing
 from gmds.report.packing import fingerprint_of, packed, packed_data
 
@@ -77,6 +77,7 @@ def write_report(
     data = content(answer, judged, drawn, names)
     script = "".join(_part(name) for name in SCRIPTS)
     ramp = ", ".join(css(value_colours(np.linspace(0, 1, 10), 0, 1)))
+    legend = np.array([MATCHED_COLOUR, UNMATCHED_COLOUR])
     badge, verdict = tables.VERDICTS[answer.status]
     page = Template(_part("report.html")).substitute(
         hashes=f"{fingerprint_of(library)} {fingerprint_of(script)}",
@@ -87,7 +88,7 @@ def write_report(
         status=html.escape(answer.status.value),
         cards=tables.cards(answer, judged),
         modes=tables.choices([(mode["key"], mode["label"]) for mode in data["modes"]]),
-        swatches=tables.swatches(zip(css(np.array([FOUND, LOST])), ("has a counterpart", "has none"), strict=True)),
+        swatches=tables.swatches(zip(css(legend), ("has a counterpart", "has none"), strict=True)),
         source=html.escape(names[0]),
         target=html.escape(names[1]),
         source_size=_size(answer.source, drawn[0]),

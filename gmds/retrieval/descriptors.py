@@ -1,4 +1,4 @@
-"""What is said of each vertex before it is put into a bag: a metric, and a signature of the heat in it."""
+"""Descriptors of vertices for bags of features: a metric, and a heat-kernel signature in it."""
 
 from __future__ import annotations
 
@@ -73,5 +73,5 @@ REGULAR_FREQUENCIES = Descriptor("SI-HKS", embedded, heat_frequencies)
 INVARIANT = Descriptor("invariant HKS", scale_invariant, log_heat)
 INVARIANT_FREQUENCIES = Descriptor("invariant SI-HKS", scale_invariant, heat_frequencies)
 
-# what is regular tells like shapes apart, what is invariant finds them after their parts have grown
+# the regular metric distinguishes similar shapes, the invariant one finds them after their parts were scaled
 DEFAULT = (REGULAR, INVARIANT)

@@ -1,4 +1,4 @@
-"""What is done to a surface before it is compared: damage that a collection has, and that says nothing of the shape."""
+"""Repair before comparison: damage of the meshes of a collection that has nothing to do with their shapes."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ SMOOTHING_STEPS = 10  # there and back
 def mended(mesh: Mesh) -> Mesh:
     """The largest piece of a mesh, parted where sheets meet in a point, small holes closed, spikes and noise smoothed.
 
-    Nothing here depends on the unit of length, nor on that of a part: all is told by neighbours.
+    Nothing here depends on the unit of length, nor on the size of a part: everything is relative to neighbours.
     """
     return smoothed(without_spikes(without_small_holes(largest_piece(parted(mesh)))))
 

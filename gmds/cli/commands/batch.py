@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from gmds.batch.cycles import Consistency
 
 PATH = click.Path(path_type=Path)
-TOLD = 20  # failures that are named on stderr, what a screen takes; the rest are in the summary
-SHOWN = 5  # cycles, and pairs to blame; set by hand
+MOST_FAILURES = 20  # failures that are named on stderr, what a screen takes; the rest are in the summary
+MOST_CYCLES = 5  # cycles, and pairs to blame; set by hand
 SHARES = ("within_005", "within_010")
 
 
@@ -100,7 +100,9 @@ def _failures(done: Batch) -> list[str]:
     names = {shape.name for shape in broken}
     pairs = [pair for pair in done.failed if pair.failure is not None and not names & {pair.source, pair.target}]
     lines += [f"failed {pair.name}: {pair.failure.code}: {pair.failure.reason}" for pair in pairs if pair.failure]
-    return lines if len(lines) <= TOLD else [*lines[:TOLD], f"and {len(lines) - TOLD} more; see summary.csv"]
+    if len(lines) <= MOST_FAILURES:
+        return lines
+    return [*lines[:MOST_FAILURES], f"and {len(lines) - MOST_FAILURES} more; see summary.csv"]
 
 
 def _told(done: Batch) -> dict[str, Any]:
@@ -126,6 +128,6 @@ def _agreement(found: Consistency) -> dict[str, Any] | None:
         "count": len(found.cycles),
         "mean": found.mean,
         **figures,
-        "worst": {str(cycle): cycle.mean for cycle in found.cycles[:SHOWN]},
-        "most_blamed": {f"{a}__{b}": blame for (a, b), blame in list(found.blame.items())[:SHOWN]},
+        "worst": {str(cycle): cycle.mean for cycle in found.cycles[:MOST_CYCLES]},
+        "most_blamed": {f"{a}__{b}": blame for (a, b), blame in list(found.blame.items())[:MOST_CYCLES]},
     }

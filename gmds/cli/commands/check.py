@@ -13,7 +13,7 @@ from gmds.cli.output import emit, json_option
 if TYPE_CHECKING:
     from geodesics.errors import Note
 
-SHOWN = 6  # of the faces or vertices that a finding means: as many as a line takes
+MOST_INDICES = 6  # of the faces or vertices that a finding means: as many as a line takes
 
 
 @click.command(cls=Command, short_help="Say what is wrong with a mesh.")
@@ -53,7 +53,8 @@ def _finding(note: Note) -> dict[str, Any]:
 def _print_table(findings: list[dict[str, Any]]) -> None:
     rows = [("code", "", "count", "repair", "what", "first")]
     for found in findings:
-        first = ", ".join(map(str, found["indices"][:SHOWN])) + (", ..." if len(found["indices"]) > SHOWN else "")
+        more = ", ..." if len(found["indices"]) > MOST_INDICES else ""
+        first = ", ".join(map(str, found["indices"][:MOST_INDICES])) + more
         count = "" if found["count"] is None else str(found["count"])
         rows.append((found["code"], found["severity"], count, found["repair"] or "", found["message"], first))
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]

@@ -54,7 +54,7 @@ def command(
       .tps .pts  coordinates alone (.pts: with names); .vts: a vertex a line, from 1
 
     \b
-    For every landmark are told
+    For every landmark the table has
       moved       how far it was from the surface of SOURCE, in the units of the mesh
       confidence  1 - the distortion of the map there, at least 0; a rank for whom to look at first, no probability.
                   1: distances from it are the same on both surfaces; 0: they differ by as much as their mean

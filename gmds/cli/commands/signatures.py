@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from geodesics.arrays import Floats
 
 KINDS = ("hks", "scaled-hks", "si-hks", "wks")
-TIMES, ENERGIES, SHOWN = 16, 100, 3  # SHOWN: views in the picture
+TIMES, ENERGIES = 16, 100  # how many a signature has; of WKS as in the code of its authors, of HKS set by hand
+PICTURED = 3  # columns that the picture shows; set by hand
 
 
 def _numbers(_ctx: click.Context, _param: click.Parameter, given: str | None) -> list[float] | None:
@@ -88,7 +89,7 @@ def command(
         "cpu_seconds": time.process_time() - started,
     }
     emit(result, as_json)
-    shown = sorted({i * (len(names) - 1) // (SHOWN - 1) for i in range(SHOWN)})
+    shown = sorted({i * (len(names) - 1) // (PICTURED - 1) for i in range(PICTURED)})
     draw(picture, [(f"{kind}, {names[i]}", surface, _in_own_range(signature[:, i])) for i in shown])
 
 

@@ -31,7 +31,7 @@ def command(mesh: Path, output: Path, vertices: int, as_json: bool, **shown: Any
       gmds symmetry dog.ply -o mirror.npz --picture mirror.png
 
     \b
-    A limb or an ear may differ in size from its partner. All that are found are told, the best first:
+    A limb or an ear may differ in size from its partner. All symmetries found are listed, the best first:
       reversing    whether left and right are exchanged (a reflection), or not (a rotation)
       stress       how much distances change, over the mean distance
       orientation  share of the area that keeps its orientation minus the rest

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 MESHES = (".obj", ".ply", ".glb", ".vtp")
 KINDS = ("numbers", "labels", "weights", "vectors", "colours")
-TOLD = {
+METHODS = {
     "numbers": "by interpolation",
     "labels": "as labels",
     "weights": "by interpolation, rows summing to 1",
@@ -109,7 +109,7 @@ def _carry_look(answer: Correspondence, file: Path, texture: Path | None, output
     if look.colours is None:
         raise click.UsageError(f"{file} has neither colours nor texture coordinates; give --values")
     write_look(output, answer.source, Look(colours=answer.transfer(look.colours)))
-    return {"carried": TOLD["colours"]}
+    return {"carried": METHODS["colours"]}
 
 
 def _carry_values(answer: Correspondence, file: Path, kind: str, output: Path, picture: Path | None) -> dict[str, Any]:
@@ -125,7 +125,7 @@ def _carry_values(answer: Correspondence, file: Path, kind: str, output: Path, p
         given = _as_colours(given, file)
     carried = _carried(answer, given, kind)
     table = carried.reshape(len(carried), -1)
-    result: dict[str, Any] = {"columns": table.shape[1], "carried": TOLD[kind]}
+    result: dict[str, Any] = {"columns": table.shape[1], "carried": METHODS[kind]}
     if output.suffix.lower() in MESHES:
         from gmds.appearance import Look, write_look
 

@@ -92,8 +92,8 @@ def test_what_is_done_is_kept(
 def test_workers_that_are_killed_as_they_start_are_replaced(
     meshes: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(engine, "LOST", 3)
-    monkeypatch.setattr(engine, "PATIENCE", 0.5)
+    monkeypatch.setattr(engine, "LOST_AFTER", 3)
+    monkeypatch.setattr(engine, "LOOK_EVERY", 0.5)
     with local_client(1) as client:
         (first,) = batches.worker_pids(client)
         os.kill(first, signal.SIGKILL)

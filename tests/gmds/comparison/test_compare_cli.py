@@ -15,8 +15,7 @@ from generated_shapes import bumpy_sphere, ellipsoid, torus
 
 from geodesics import Mesh, write_mesh
 from gmds.cli import main
-from gmds.comparison import distortion as morphometry
-from gmds.comparison import profiles
+from gmds.comparison import distortion, profiles
 from gmds.deformations import similarity
 
 
@@ -84,7 +83,7 @@ def test_nothing_is_computed_twice(folder: Path, done: tuple[Path, dict], monkey
         raise AssertionError("computed again")
 
     monkeypatch.setattr(profiles, "distance_profile", never)
-    monkeypatch.setattr(morphometry, "embedding_distortion", never)
+    monkeypatch.setattr(distortion, "embedding_distortion", never)
     before = (done[0] / "matrix.csv").read_bytes()
     assert run(folder, "-o", done[0], "--embed", 1).exit_code == 0
     assert (done[0] / "matrix.csv").read_bytes() == before

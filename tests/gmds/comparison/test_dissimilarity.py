@@ -11,7 +11,7 @@ from generated_shapes import bumpy_sphere, torus
 
 from geodesics import Mesh, read_mesh
 from gmds import dissimilarity, distance_profile, least_distortion
-from gmds.comparison import distortion as morphometry
+from gmds.comparison import distortion
 from gmds.comparison.clustering import families, leaf_order, nearest, neighbour_accuracy, plane_map, tree
 from gmds.comparison.distortion import _one_way, descended, embedding_distortion
 from gmds.comparison.profiles import EQUAL_AREA_SAMPLES, equal_area_samples, views
@@ -117,7 +117,7 @@ def test_sweeps_lower_the_mean_absolute_stress_to_where_no_single_move_lowers_it
 
 def test_both_ways_are_asked_for(family: dict[str, Mesh], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(shortlist, "TRIED", 4)  # enough for what is tested here
-    monkeypatch.setattr(morphometry, "DESCENDED", 1)
+    monkeypatch.setattr(distortion, "IMPROVED_STARTS", 1)
     ours, theirs = views(family["sphere"]), views(family["animal"])
     there, back = np.array(_one_way(ours, theirs)), np.array(_one_way(theirs, ours))
     assert (np.maximum(there, back) > 1.1 * np.minimum(there, back)).any()  # so that it matters here

@@ -54,7 +54,7 @@ def test_what_fails_leaves_the_rest(monkeypatch: pytest.MonkeyPatch, module: Any
 
 
 def test_large_surfaces_and_empty_maps_show_a_table(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(gmds.report.notebook, "LARGE", 100)
+    monkeypatch.setattr(gmds.report.notebook, "MOST_FACES", 100)
     assert "img" not in tags(identity()._repr_mimebundle_()["text/html"])
     shape = tetrahedron()
     nothing = Correspondence.from_points(

@@ -18,7 +18,7 @@ from geodesics.repair.decimation import clustered
 from gmds import Correspondence, MatchStatus
 from gmds.maps.npz_format import fingerprint
 from gmds.maps.point_map import Candidate
-from gmds.report.drawing import DRAWN, MOST, drawing
+from gmds.report.drawing import MOST_VERTICES, SIMPLIFIED_VERTICES, drawing
 from gmds.report.page import write_report
 from gmds.shapes import quadruped, truth
 
@@ -177,7 +177,7 @@ def test_large_surfaces_are_drawn_as_copies_near_them(branching: bool) -> None:
     large = rectangle(150, 80)
     large = with_a_third_sheet(large) if branching else large
     drawn = drawing(large, np.eye(3))
-    assert large.n_vertices > MOST and 0.5 * DRAWN < len(drawn.vertices) <= MOST
+    assert large.n_vertices > MOST_VERTICES and 0.5 * SIMPLIFIED_VERTICES < len(drawn.vertices) <= MOST_VERTICES
     gap = np.linalg.norm(drawn.vertices - large.vertices[drawn.origin], axis=1)
     assert gap.max() < 2 * np.sqrt(large.area / len(drawn.vertices))
     assert np.abs(drawn.placed(large.vertices)).max() <= 0.5
