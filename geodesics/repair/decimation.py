@@ -17,6 +17,7 @@ from geodesics.errors import NotManifold
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
 from geodesics.repair.repairing import Repaired, inverse_index, repair
+from geodesics.repair.splitting import split
 from geodesics.repair.triangulation import flip_towards_delaunay
 from geodesics.topology.components import boundary_vertices
 from geodesics.topology.edges import edges, proper_faces
@@ -82,13 +83,21 @@ def refuse_branching(mesh: Mesh) -> None:
 
 
 def decimated(mesh: Mesh, n_faces: int) -> Mesh | None:
-    """A mesh of about `n_faces` faces, by collapsing edges; None if there are few more, or it cannot be done."""
+    """A mesh of about `n_faces` faces, by collapsing edges; None if there are few more, or it cannot be done.
+
+    Where more than two faces or several fans meet, the coarse copy is cut apart first (see `split`).
+    """
     import igl
 
     used, faces = np.unique(mesh.faces[proper_faces(mesh.faces)], return_inverse=True)
     faces = faces.reshape(-1, 3).astype(np.int64)
-    if len(faces) <= n_faces * 1.25 or not _can_be_collapsed(faces):
+    if len(faces) <= n_faces * 1.25:
         return None
+    if not _can_be_collapsed(faces):
+        apart, vertex = split(Mesh(mesh.vertices[used], faces))
+        used, faces = used[vertex], np.asarray(apart.faces)
+        if not _can_be_collapsed(faces):
+            return None
     v, f, *_ = igl.decimate(np.ascontiguousarray(mesh.vertices[used]), faces, n_faces)
     return None if len(f) == 0 or len(f) > 2 * n_faces else Mesh(v, np.asarray(f, dtype=np.int64))
 

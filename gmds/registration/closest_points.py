@@ -67,6 +67,9 @@ class ClosestPoints:
         if settings.partial:
             weight = np.where(target.on_boundary(points), 0.0, weight)
             weight_back = np.where(source.boundary[back], 0.0, weight_back)
+        if settings.reciprocal is not None:
+            away = np.linalg.norm(target.mesh.vertices[target.usable] - points.positions[back], axis=1)
+            weight_back = np.where(away > settings.reciprocal, 0.0, weight_back)
         return cls(points, near, back, weight, weight_back)
 
     def point_constraints(self, source: DeformableMesh, target: DeformableMesh) -> tuple[Floats, Floats]:

@@ -51,12 +51,16 @@ class RegistrationSettings:
         Whether what is closest to a boundary is left alone, as what it belongs to may be missing.
     views : pair of View, optional
         Of both undeformed surfaces: their eigenfunctions take part in the search for closest points.
+    reciprocal : float, optional
+        Root areas between a point of the target and the image of the source vertex closest to it, beyond which it does
+        not pull: the source may have nothing there.
     """
 
     stages: Stages = (*TO_IMAGES, *COARSE, *FINE)
     energy: EnergyKind = AsSimilarAsPossible
     partial: bool = False
     views: tuple[View, View] | None = None
+    reciprocal: float | None = None
 
     def with_stages(self, stages: Stages) -> RegistrationSettings:
         """The same in other stages."""

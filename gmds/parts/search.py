@@ -1,0 +1,116 @@
+"""Where a part may lie on a whole: many rough maps, each deformed onto the whole, the few likeliest made better."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from geodesics.arrays import Floats, Integers
+from geodesics.threads import side_by_side
+from gmds.parts.assignments import consistent_assignments
+from gmds.parts.extremities import inner_extremities
+from gmds.parts.local_stress import LocalStress
+from gmds.parts.trilateration import Trilateration
+from gmds.registration.deformable import DeformableMesh
+from gmds.registration.energies import AsRigidAsPossible
+from gmds.registration.register import Registered, register
+from gmds.registration.settings import COARSE, TO_IMAGES, RegistrationSettings
+from gmds.surface.measured import Surface
+
+# Chosen on the development half of the PFAUST pairs (benchmarks/parts).
+REGISTERED = 50  # rough maps, those of least residual, that are deformed onto the whole
+IMPROVED = 8  # of these, apart from each other, that are placed again by distances
+ROUNDS = 3  # of placing and deforming
+APART = 0.06  # root mean square distance, in root areas of the whole, between two maps that are two
+RECIPROCAL = 0.08  # root areas between a point of the whole and the image of what it is closest to, beyond which the
+# part has nothing there
+BELIEF_TIME = 3e-3  # heat time, in units of the area of the part, over which strain is averaged
+
+ONTO_WHOLE = RegistrationSettings((*TO_IMAGES, *COARSE), AsRigidAsPossible, partial=True, reciprocal=RECIPROCAL)
+"""Of a simplified part onto a simplified whole: what the part does not reach does not pull."""
+
+
+@dataclass(frozen=True, eq=False)
+class PartMap:
+    """A simplified part `registered` on a simplified whole, `size` times as large as it is with unit area."""
+
+    registered: Registered
+    size: float
+
+    @property
+    def neg_log_likelihood(self) -> float:
+        """Minus the log-likelihood up to a constant: of the energy for a part of unit area, and of the curvature.
+
+        The way back says nothing where most of the whole has no counterpart, so it has no say.
+        """
+        residuals = self.registered.residuals
+        unexplained = np.sqrt(1 - np.clip(residuals.curvature, 0.0, 0.999) ** 2)
+        return float(np.log(max(np.sqrt(residuals.energy) / self.size, 1e-6)) + np.log(unexplained))
+
+
+def part_maps(
+    source: Surface, target: Surface, meshes: tuple[DeformableMesh, DeformableMesh], tell: Callable[[float], None]
+) -> list[PartMap]:
+    """Maps of the part `source` onto `target`, the likeliest first; `meshes` are both simplified. Maybe none.
+
+    Extremities of both are assigned to each other where they agree on a scale (`consistent_assignments`), every vertex
+    is placed by its distances from them (`Trilateration`), and the simplified part is deformed as that says. Of the
+    likeliest, vertices are placed anew by distances from those that fit well (`LocalStress`), a few times.
+    """
+    ours, theirs = side_by_side(inner_extremities, (source, target))
+    if len(ours.vertices) < 2 or len(theirs.vertices) < 2:
+        return []
+    assigned = consistent_assignments(ours.distances[:, ours.vertices], theirs.distances[:, theirs.vertices])
+    rows = Trilateration(source.mesh, target.mesh, ours, theirs, meshes[0].origin, meshes[1].origin)
+    residuals = side_by_side(rows.residual, assigned)
+    likely = [assigned[i] for i in np.argsort(residuals, kind="stable")[:REGISTERED]]
+    tell(0.3)
+    begun = side_by_side(lambda one: _deformed(meshes, rows.images(one)), likely)
+    tell(0.6)
+    apart = distinct_maps(begun, meshes[0])[:IMPROVED]
+    return distinct_maps(side_by_side(functools.partial(improved, meshes), apart), meshes[0])
+
+
+def distinct_maps(maps: Sequence[PartMap], source: DeformableMesh) -> list[PartMap]:
+    """The likeliest first, without those that nearly repeat a likelier one."""
+    kept: list[PartMap] = []
+    for one in sorted(maps, key=lambda one: one.neg_log_likelihood):
+        if all(_gap(one, other, source.areas) > APART for other in kept):
+            kept.append(one)
+    return kept
+
+
+def improved(meshes: tuple[DeformableMesh, DeformableMesh], start: PartMap) -> PartMap:
+    """The likeliest of the map and of what `ROUNDS` of placing by distances and deforming make of it."""
+    source, target = meshes
+    best, now = start, start
+    stress = LocalStress(source, target)
+    for _ in range(ROUNDS):
+        images = target.usable[target.tree.query(source.moved_features(now.registered.y))[1]]
+        now = _deformed(meshes, stress.placed(images, belief(source, now.registered), now.size))
+        best = min(best, now, key=lambda one: one.neg_log_likelihood)
+    return best
+
+
+def belief(source: DeformableMesh, registered: Registered) -> Floats:
+    """How far the image of each vertex (n,) is believed: 1 / (1 + (strain / median strain)^2)."""
+    average = source.laplacian.heat_step(BELIEF_TIME)
+    strain = average(source.areas * registered.strain)
+    return np.asarray(1 / (1 + (strain / max(float(np.median(strain[source.usable])), 1e-12)) ** 2), dtype=np.float64)
+
+
+def _deformed(meshes: tuple[DeformableMesh, DeformableMesh], images: Integers) -> PartMap:
+    """The simplified part deformed as a map to vertices of the simplified whole says."""
+    source, target = meshes
+    registered = register(source, target, target.mesh.vertices[images], ONTO_WHOLE)
+    local = source.energy(ONTO_WHOLE.energy).local_step(registered.y)
+    size = float(np.sqrt(np.einsum("nab,nab->n", local, local) @ source.areas / 3))
+    return PartMap(registered, max(size, 1e-6))
+
+
+def _gap(one: PartMap, other: PartMap, areas: Floats) -> float:
+    squares = ((one.registered.y - other.registered.y) ** 2).sum(axis=1)
+    return float(np.sqrt(areas @ squares))
