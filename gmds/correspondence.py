@@ -10,11 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from geodesics import embedded, lumped_mass
 from geodesics.arrays import Bools, Floats, Integers
+from geodesics.caching import memoized
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
 from gmds.errors import MapArray, MapError
-from gmds.maps.images import FAR, image, preimage
+from gmds.maps.images import FAR, covered, image, preimage
 from gmds.maps.npz_format import read_map, write_map
 from gmds.maps.point_map import Candidate, MatchStatus
 from gmds.maps.rows import check_rows
@@ -101,6 +103,16 @@ class Correspondence:
     def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
         """For notebooks: a small picture and a few figures (see `gmds.report.notebook`)."""
         return mimebundle(self)
+
+    @property
+    def covered(self) -> Bools:
+        """Which target vertices (n_target,) the valid part of the source reaches."""
+        return reached(self)
+
+    @property
+    def overlap(self) -> tuple[float, float]:
+        """The shares in [0, 1] of the area of the source that is valid, and of that of the target that is covered."""
+        return area_share(self.source, self.valid), area_share(self.target, self.covered)
 
     def vertex_map(self) -> Integers:
         """The target vertex nearest to each point, among the corners of its face: int64 array of shape (n,)."""
@@ -193,3 +205,15 @@ class Correspondence:
             return cls(source, target, points, arrays["valid"], arrays["distortion"], status, (), meta)
         except ValueError as error:
             raise MapArray(f"{path}: {error}") from error
+
+
+@memoized
+def reached(answer: Correspondence) -> Bools:
+    """`gmds.maps.images.covered`, computed once for a map."""
+    return covered(answer)
+
+
+def area_share(mesh: Mesh, vertices: Bools) -> float:
+    """The share in [0, 1] of the area of a mesh that belongs to some of its vertices (n,)."""
+    area = lumped_mass(embedded(mesh)).diagonal()
+    return float(area[vertices].sum() / area.sum())

@@ -18,6 +18,7 @@ from gmds.matching.candidates import MapCandidate, mirrored
 from gmds.matching.large_surfaces import CoarseCopies
 from gmds.matching.notes import match_notes
 from gmds.matching.pair import SurfacePair
+from gmds.matching.part_answers import PARTS, PartAnswer, Parts, maps_of_parts
 from gmds.matching.proposals import distinct, proposals
 from gmds.matching.result import correspondence_of
 from gmds.matching.steps import embedded, registered, starts_of, views_of
@@ -38,7 +39,7 @@ REFLECTED = {"preserve": (False,), "reverse": (True,), "any": (False, True)}
 
 @suggest_keywords
 @on_one_blas_thread
-def match(  # noqa: PLR0913 - the signature is a promise
+def match(  # noqa: PLR0913, PLR0915 - the signature is a promise
     source: Mesh | Surface,
     target: Mesh | Surface,
     *,
@@ -47,6 +48,7 @@ def match(  # noqa: PLR0913 - the signature is a promise
     n_samples: int | None = None,
     landmarks: Any = None,
     orientation: Literal["preserve", "reverse", "any"] = "preserve",
+    parts: Parts = "auto",
     rng: int = 0,
     progress: Callable[[str, float], None] | None = None,
 ) -> Correspondence:
@@ -76,6 +78,10 @@ def match(  # noqa: PLR0913 - the signature is a promise
         inside a face to within the size of faces; `SoftLandmarks` pull, as far as they can be right.
     orientation : {"preserve", "reverse", "any"}
         What the map is to do to the orientation of the surface.
+    parts : {"auto", "neither", "source", "target"}
+        Which surface is but a part of what the other is. With "auto" that is asked of a surface with a boundary, unless
+        landmarks or a distance are given: its vertices then all have a counterpart, and of the other surface those in
+        the region that it covers (`valid`, `covered`).
     rng : int
         Seeds whatever is random; in the method as it stands nothing is.
     progress : callable, optional
@@ -110,6 +116,8 @@ def match(  # noqa: PLR0913 - the signature is a promise
     """
     if orientation not in REFLECTED:
         raise ValueError(f"orientation must be 'preserve', 'reverse' or 'any', not {orientation!r}")
+    if parts not in PARTS:
+        raise ValueError(f"parts must be one of {', '.join(map(repr, PARTS))}, not {parts!r}")
     measured, facing = (s if isinstance(s, Surface) else measure(Mesh.from_object(s)) for s in (source, target))
     loss = LeastSquares() if loss is None else loss
     placed = None if landmarks is None else place_landmarks(landmarks, measured.original, facing.original)
@@ -124,24 +132,32 @@ def match(  # noqa: PLR0913 - the signature is a promise
         constraints = None if constraints is None else copies.landmarks(constraints)
         measured, facing = copies.copies
     candidates: list[MapCandidate] = []
+    of_parts: list[PartAnswer] = []
+    asked = parts if (distance is None and landmarks is None) or parts != "auto" else "neither"
     for reflected in REFLECTED[orientation]:
         pair = SurfacePair(measured, facing.reflection if reflected else facing, constraints, reflected)
         views, given = views_of(pair, distance)
         proposed = proposals(pair, views, starts_of(pair), lambda share: report("proposing", 0.2 + 0.3 * share))
         likely = distinct(proposed, pair.simplified[0], EMBEDDED, SHORTFALL)
-        candidates += embedded(pair, likely, loss, count, given, report)
+        of_parts += maps_of_parts(pair, asked, likely, loss, count, report)
+        if not any(one.explains(likely) for one in of_parts):
+            candidates += embedded(pair, likely, loss, count, given, report)
     candidates.sort(key=lambda candidate: candidate.evidence.neg_log_likelihood)
-    if distance is None:
+    if distance is None and candidates:
         candidates = registered(candidates, report)
-    candidates += mirrored(candidates[0])
 
     settings = {
         "n_samples": min(count, len(measured.regular.usable)),
         **method_in_words(distance, loss),
         "orientation": orientation,
+        "parts": parts,
         "rng": rng,
     }
-    answer = correspondence_of(candidates, {"parameters": settings})
+    meta = {"parameters": settings}
+    if candidates:
+        answer = correspondence_of([*candidates, *mirrored(candidates[0])], meta)
+    else:
+        answer = min(of_parts, key=lambda one: one.neg_log_likelihood).correspondence(meta)
     answer = answer if copies is None else copies.prolonged(answer)
     notes = match_notes(measured.original, facing.original, answer.status)
     if placed is not None:

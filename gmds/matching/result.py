@@ -42,13 +42,13 @@ def correspondence_of(placed: Sequence[MapCandidate], meta: Mapping[str, Any]) -
     best = placed[0]
     source, target, margin = best.pair.source, best.pair.target, _margin(placed)
     evidence = {**best.evidence.as_meta(), "margin": min(margin, MARGIN_OF_THE_ONLY)}
-    candidates = tuple(Candidate(_original(e), e.evidence.stress, e.evidence.orientation) for e in placed[1:])
+    candidates = tuple(Candidate(original_points(e), e.evidence.stress, e.evidence.orientation) for e in placed[1:])
     return Correspondence(
         source=source.original,
         target=target.original,
-        points=_original(best),
+        points=original_points(best),
         valid=_valid(best),
-        distortion=_distortion(best),
+        distortion=distortion_of(best),
         status=_status(best, margin),
         candidates=candidates,
         meta={**meta, "evidence": evidence, "solver": best.solution.status.name, "versions": versions()},
@@ -69,7 +69,7 @@ def contenders(placed: Sequence[MapCandidate]) -> list[MapCandidate]:
     return [best, *close[:1]]
 
 
-def _original(candidate: MapCandidate) -> SurfacePoints:
+def original_points(candidate: MapCandidate) -> SurfacePoints:
     """The points on the original target; vertices that were left out go where the nearest one that was not went."""
     source, target, points = candidate.pair.source, candidate.pair.target, candidate.points
     used = source.regular.usable
@@ -98,7 +98,7 @@ def _valid(candidate: MapCandidate) -> Bools:
     return np.asarray(used & (share < 0.5), dtype=np.bool_)
 
 
-def _distortion(candidate: MapCandidate) -> Floats:
+def distortion_of(candidate: MapCandidate) -> Floats:
     """Root of the elastic energy per area around each vertex (n,): the relative error of lengths; 1 where no map is."""
     source = candidate.pair.full[0]
     average = source.laplacian.heat_step(DISTORTION_TIME)

@@ -1,0 +1,147 @@
+"""From maps between a part and the region of a whole to a Correspondence, whichever of both the part is."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from geodesics import SurfacePoints
+from geodesics.topology import boundary_vertices
+from gmds.correspondence import Correspondence
+from gmds.maps.images import COVERED, preimage
+from gmds.maps.point_map import Candidate, MatchStatus
+from gmds.matching.pair import SurfacePair
+from gmds.matching.parts import PartCandidate, part_candidates
+from gmds.matching.proposals import Proposal
+from gmds.matching.result import AMBIGUOUS_MARGIN, ANOTHER_MAP, MARGIN_OF_THE_ONLY, distortion_of, original_points
+from gmds.matching.steps import Report
+from gmds.mds.losses import Loss
+from gmds.provenance import versions
+from gmds.surface.measured import Surface
+
+Part = Literal["source", "target"]
+Parts = Literal["auto", "neither", "source", "target"]
+
+PARTS: tuple[Parts, ...] = ("auto", "neither", "source", "target")
+
+# A map of a part is POOR when its negative log-likelihood is above the first, or curvature correlates by less than the
+# second: right maps of the development half of the PFAUST pairs have -11.8 and 0.68 at the worst.
+LEAST_LIKELY = -11.3
+LEAST_CURVATURE = 0.6
+CERTAIN = -10.5  # of the likeliest map of a whole to a whole, below which none of 39 development pairs was wrong
+FIT_OF_A_REGION = 1.0  # of log-likelihood, which a region that may be chosen gains in any case; set by hand
+
+
+@dataclass(frozen=True, eq=False)
+class PartAnswer:
+    """Maps of the `part` to regions of the other surface, the likeliest first."""
+
+    part: Part
+    candidates: Sequence[PartCandidate]
+
+    @property
+    def neg_log_likelihood(self) -> float:
+        """That of the likeliest map."""
+        return self.candidates[0].neg_log_likelihood
+
+    def explains(self, whole: Sequence[Proposal]) -> bool:
+        """Whether the maps of one whole to the other are less likely by far: a region can be chosen to fit."""
+        return self.neg_log_likelihood < min(one.neg_log_likelihood for one in whole) - FIT_OF_A_REGION
+
+    def correspondence(self, meta: Mapping[str, Any]) -> Correspondence:
+        """The answer."""
+        return part_answer(self.candidates, self.part, meta)
+
+
+def maps_of_parts(
+    pair: SurfacePair, parts: Parts, whole: Sequence[Proposal], loss: Loss, count: int, report: Report
+) -> list[PartAnswer]:
+    """What comes of taking one surface for a part of the other, for each that may be; none where neither may.
+
+    A surface without a boundary is no part, nor is one that a map of one whole to the other explains well.
+    """
+    sides = {"source": (pair.source, pair.target), "target": (pair.target, pair.source)}
+    if parts == "auto":
+        certain = min(one.neg_log_likelihood for one in whole) < CERTAIN
+        asked = [name for name, (part, _) in sides.items() if not certain and boundary_vertices(part.mesh).any()]
+    else:
+        asked = [name for name in sides if name == parts]
+    found = []
+    for number, name in enumerate(asked):
+        tell = functools.partial(_tell, report, number / len(asked), 1 / len(asked))
+        candidates = part_candidates(*sides[name], loss, count, tell)
+        if candidates:
+            found.append(PartAnswer("source" if name == "source" else "target", candidates))
+    return found
+
+
+def _tell(report: Report, start: float, share: float, done: float) -> None:
+    report("looking for the part", 0.5 + 0.5 * (start + share * done))
+
+
+def part_answer(candidates: Sequence[PartCandidate], part: Part, meta: Mapping[str, Any]) -> Correspondence:
+    """The likeliest map as a `Correspondence` between the original meshes, the others as its candidates.
+
+    `candidates` map the part to regions of the whole. Where the part is the target the map is turned round: a vertex of
+    the source has a counterpart when it is in the region.
+    """
+    best, margin = candidates[0], part_margin(candidates)
+    forward = _forward(best, _status(best, margin), meta)
+    evidence = {**best.candidate.evidence.as_meta(), "margin": min(margin, MARGIN_OF_THE_ONLY), "part": part}
+    others = [
+        Candidate(_points(one, part), one.candidate.evidence.stress, one.candidate.evidence.orientation)
+        for one in candidates[1:]
+    ]
+    told = {**meta, "evidence": evidence, "solver": best.candidate.solution.status.name, "versions": versions()}
+    if part == "source":
+        return Correspondence(
+            forward.source, forward.target, forward.points, forward.valid, forward.distortion, forward.status,
+            tuple(others), told,
+        )  # fmt: skip
+    points, gap = preimage(forward, np.arange(forward.target.n_vertices))
+    used = np.bincount(forward.target.faces.ravel(), minlength=forward.target.n_vertices) > 0
+    spacing = 1 / np.sqrt(used.sum())
+    valid = used & (gap < COVERED * spacing)
+    distortion = np.where(np.isfinite(gap), points.interpolate(forward.distortion) + gap, 1.0)
+    return Correspondence(
+        forward.target, forward.source, points, valid, distortion, forward.status, tuple(others), told
+    )
+
+
+def part_margin(candidates: Sequence[PartCandidate]) -> float:
+    """How much likelier the first is than any quite different one: the difference of log-likelihood."""
+    best = candidates[0]
+    others = [
+        one.neg_log_likelihood
+        for one in candidates[1:]
+        if np.linalg.norm(one.images.positions - best.images.positions, axis=1).mean() > ANOTHER_MAP
+    ]
+    return min(others, default=np.inf) - best.neg_log_likelihood
+
+
+def _status(best: PartCandidate, margin: float) -> MatchStatus:
+    whole = best.candidate.evidence.whole
+    if best.neg_log_likelihood > LEAST_LIKELY or whole.curvature < LEAST_CURVATURE:
+        return MatchStatus.POOR
+    return MatchStatus.AMBIGUOUS if margin < AMBIGUOUS_MARGIN else MatchStatus.GOOD
+
+
+def _forward(one: PartCandidate, status: MatchStatus, meta: Mapping[str, Any]) -> Correspondence:
+    """The map from the part to the whole."""
+    part: Surface = one.candidate.pair.source
+    points = one.region.on_whole(original_points(one.candidate))
+    valid = part.areas > 0
+    distortion = distortion_of(one.candidate)
+    return Correspondence(part.original, one.region.whole.original, points, valid, distortion, status, (), meta)
+
+
+def _points(one: PartCandidate, part: Part) -> SurfacePoints:
+    """Where the vertices of the source go."""
+    forward = _forward(one, MatchStatus.UNRATED, {})
+    if part == "source":
+        return forward.points
+    return preimage(forward, np.arange(forward.target.n_vertices))[0]
