@@ -91,6 +91,12 @@ def measured(checkout: Path) -> dict[str, float]:
     return dict(zip(GOALS, figures, strict=True))
 
 
+def commit(checkout: Path) -> str:
+    """What is checked out."""
+    command = ["git", "-C", checkout, "rev-parse", "--short", "HEAD"]
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+
+
 def shown(name: str, value: float) -> str:
     """A figure as the page has it."""
     return f"{value:.3f}" if name.endswith("s") and "," in name else f"{value:.0f}"
@@ -102,7 +108,9 @@ def main() -> None:
     parser.add_argument("--against", type=Path, help="another checkout, measured in turn with this one")
     parser.add_argument("--runs", type=int, default=3, help="of which medians are taken (default: %(default)s)")
     options = parser.parse_args()
-    checkouts = {"now": ROOT} if options.against is None else {"before": options.against.resolve(), "now": ROOT}
+    checkouts = {"now": ROOT}
+    if options.against is not None:
+        checkouts = {f"at {commit(options.against)}": options.against.resolve(), **checkouts}
     runs = {title: [] for title in checkouts}  # type: dict[str, list[dict[str, float]]]
     for _ in range(options.runs):
         for title, checkout in checkouts.items():
