@@ -9,8 +9,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from geodesics import SurfacePoints
-from geodesics.topology import boundary_vertices
+from geodesics import Mesh, SurfacePoints
+from geodesics.topology.edges import edges
 from gmds.correspondence import Correspondence
 from gmds.maps.images import COVERED, preimage
 from gmds.maps.point_map import Candidate, MatchStatus
@@ -32,7 +32,9 @@ PARTS: tuple[Parts, ...] = ("auto", "neither", "source", "target")
 # second: right maps of the development half of the PFAUST pairs have -11.8 and 0.68 at the worst.
 LEAST_LIKELY = -11.3
 LEAST_CURVATURE = 0.6
-CERTAIN = -10.5  # of the likeliest map of a whole to a whole, below which none of 39 development pairs was wrong
+# Length of the boundary in root areas, above which something may be missing: the wrist of a person is 0.1 around.
+# What is shorter is an eye, or a hole of a scan.
+LEAST_BOUNDARY = 0.1
 FIT_OF_A_REGION = 1.0  # of log-likelihood, which a region that may be chosen gains in any case; set by hand
 
 
@@ -57,17 +59,14 @@ class PartAnswer:
         return part_answer(self.candidates, self.part, meta)
 
 
-def maps_of_parts(
-    pair: SurfacePair, parts: Parts, whole: Sequence[Proposal], loss: Loss, count: int, report: Report
-) -> list[PartAnswer]:
+def maps_of_parts(pair: SurfacePair, parts: Parts, loss: Loss, count: int, report: Report) -> list[PartAnswer]:
     """What comes of taking one surface for a part of the other, for each that may be; none where neither may.
 
-    A surface without a boundary is no part, nor is one that a map of one whole to the other explains well.
+    A surface without a boundary, or with a short one, is no part.
     """
     sides = {"source": (pair.source, pair.target), "target": (pair.target, pair.source)}
     if parts == "auto":
-        certain = min(one.neg_log_likelihood for one in whole) < CERTAIN
-        asked = [name for name, (part, _) in sides.items() if not certain and boundary_vertices(part.mesh).any()]
+        asked = [name for name, (part, _) in sides.items() if boundary_length(part.mesh) > LEAST_BOUNDARY]
     else:
         asked = [name for name in sides if name == parts]
     found = []
@@ -77,6 +76,13 @@ def maps_of_parts(
         if candidates:
             found.append(PartAnswer("source" if name == "source" else "target", candidates))
     return found
+
+
+def boundary_length(mesh: Mesh) -> float:
+    """The length of all edges with one face."""
+    table = edges(mesh)
+    ends = mesh.vertices[table.ends[table.n_faces == 1]]
+    return float(np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).sum())
 
 
 def _tell(report: Report, start: float, share: float, done: float) -> None:

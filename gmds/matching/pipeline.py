@@ -139,7 +139,7 @@ def match(  # noqa: PLR0913, PLR0915 - the signature is a promise
         views, given = views_of(pair, distance)
         proposed = proposals(pair, views, starts_of(pair), lambda share: report("proposing", 0.2 + 0.3 * share))
         likely = distinct(proposed, pair.simplified[0], EMBEDDED, SHORTFALL)
-        of_parts += maps_of_parts(pair, asked, likely, loss, count, report)
+        of_parts += maps_of_parts(pair, asked, loss, count, report)
         if not any(one.explains(likely) for one in of_parts):
             candidates += embedded(pair, likely, loss, count, given, report)
     candidates.sort(key=lambda candidate: candidate.evidence.neg_log_likelihood)

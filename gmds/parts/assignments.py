@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geodesics.arrays import Floats, Integers
+from geodesics.arrays import Bools, Floats, Integers
 
 TOLERANCE = 0.12  # of the logarithm of a scale: what poses and triangulations change distances by, and half of it again
 LEAST_SCALE = 0.85  # of a part of unit area to a whole of unit area, which it cannot be much larger than
@@ -26,20 +26,22 @@ class Assignment(NamedTuple):
     spread: float
 
 
-def consistent_assignments(ours: Floats, theirs: Floats) -> list[Assignment]:
+def consistent_assignments(ours: Floats, theirs: Floats, alike: Bools | None = None) -> list[Assignment]:
     """Injective assignments of two or more of k points to q, by mutual distances (k, k), (q, q), known up to a scale.
 
     Every two pairs of points give a scale; assignments grow from them by points that agree with it (`TOLERANCE`) in the
-    distances to all points assigned before. A cut can only make distances of the part longer, never shorter.
+    distances to all points assigned before. `alike` (k, q) says which may be assigned to which. A cut can only make
+    distances of the part longer, never shorter.
     """
+    alike = np.ones((len(ours), len(theirs)), dtype=bool) if alike is None else alike
     found: dict[frozenset[tuple[int, int]], Assignment] = {}
     with np.errstate(divide="ignore", invalid="ignore"):
         logs = np.log(ours[:, :, None, None] / theirs[None, None])  # [i, j, a, b]
     for i, j in itertools.combinations(range(len(ours)), 2):
         for a, b in itertools.permutations(range(len(theirs)), 2):
             log = logs[i, j, a, b]
-            if np.log(LEAST_SCALE) < log < np.log(MOST_SCALE):
-                grown = _grown([(i, a), (j, b)], logs, float(log))
+            if alike[i, a] and alike[j, b] and np.log(LEAST_SCALE) < log < np.log(MOST_SCALE):
+                grown = _grown([(i, a), (j, b)], logs, float(log), alike)
                 for pairs in {
                     2: grown[:2],
                     len(grown): grown,
@@ -50,13 +52,13 @@ def consistent_assignments(ours: Floats, theirs: Floats) -> list[Assignment]:
     return list(found.values())
 
 
-def _grown(pairs: list[tuple[int, int]], logs: Floats, log: float) -> list[tuple[int, int]]:
+def _grown(pairs: list[tuple[int, int]], logs: Floats, log: float, alike: Bools) -> list[tuple[int, int]]:
     """The pairs, and others that agree with all of them on the scale, those that agree best first."""
     k, q = logs.shape[0], logs.shape[2]
     while True:
         best, least = None, TOLERANCE
         for i, a in itertools.product(range(k), range(q)):
-            if any(i == j or a == b for j, b in pairs):
+            if not alike[i, a] or any(i == j or a == b for j, b in pairs):
                 continue
             gap = max(abs(float(logs[i, j, a, b]) - log) for j, b in pairs)
             if gap < least:

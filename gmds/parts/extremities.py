@@ -53,6 +53,29 @@ def inner_extremities(surface: Surface) -> Anchors:
     return Anchors(peaks[kept], finite(fields[kept]))
 
 
+def with_interior(surface: Surface, count: int) -> tuple[Anchors, Bools]:
+    """The extremities with `count` points evenly spread over the rest, and which of all are extremities (k + count,).
+
+    A part may have no extremity of its own; points in its middle have no counterpart among a few of the whole, but one
+    nearby.
+    """
+    tips, mesh = inner_extremities(surface), surface.mesh
+    samples = surface.regular.samples(SAMPLES)
+    samples = samples[~near_boundary(mesh)[samples]]
+    spread = tips.distances.min(axis=0, initial=np.inf) if len(tips.vertices) else np.full(mesh.n_vertices, np.inf)
+    distance, chosen, fields = GeodesicDistance(embedded(mesh)), [], []
+    for _ in range(min(count, len(samples))):
+        vertex = int(samples[spread[samples].argmax()])
+        field = finite(distance.field(SurfacePoints.at_vertices(mesh, np.array([vertex]))))[0]
+        chosen.append(vertex)
+        fields.append(field)
+        spread = np.minimum(spread, field)
+    anchors = Anchors(
+        np.concatenate([tips.vertices, np.array(chosen, dtype=np.int64)]), np.vstack([tips.distances, *fields])
+    )
+    return anchors, np.arange(len(anchors.vertices)) < len(tips.vertices)
+
+
 def finite(distances: Floats) -> Floats:
     """Distances with those to other components made farther than all else, so that sums of them can be compared."""
     known = distances[np.isfinite(distances)]

@@ -44,10 +44,11 @@ class LocalStress:
 
 @memoized
 def mutual_distances(surface: DeformableMesh) -> Floats:
-    """Geodesic distances between all vertices (n, n) of a simplified mesh."""
-    mesh = surface.mesh
-    distance = GeodesicDistance(embedded(mesh))
-    return finite(distance.field(SurfacePoints.at_vertices(mesh, np.arange(mesh.n_vertices))))
+    """Geodesic distances between all vertices (n, n) of a simplified mesh; 0 from vertices on no face."""
+    mesh, distances = surface.mesh, np.zeros((surface.mesh.n_vertices,) * 2)
+    fields = GeodesicDistance(embedded(mesh)).field(SurfacePoints.at_vertices(mesh, surface.usable))
+    distances[surface.usable] = finite(fields)
+    return distances
 
 
 @memoized

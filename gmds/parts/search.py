@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from geodesics.arrays import Floats, Integers
+from geodesics.arrays import Bools, Floats, Integers
 from geodesics.threads import side_by_side
 from gmds.parts.assignments import consistent_assignments
-from gmds.parts.extremities import inner_extremities
+from gmds.parts.extremities import Anchors, inner_extremities, with_interior
 from gmds.parts.local_stress import LocalStress
 from gmds.parts.trilateration import Trilateration
 from gmds.registration.deformable import DeformableMesh
@@ -22,6 +22,8 @@ from gmds.surface.measured import Surface
 
 # Chosen on the development half of the PFAUST pairs (benchmarks/parts).
 REGISTERED = 50  # rough maps, those of least residual, that are deformed onto the whole
+DOUBTFUL = -1.35  # a likelihood above which points inside are assigned as well: right maps have -1.4 to -2.4
+INTERIOR = (3, 30)  # of them, on the part and on the whole
 IMPROVED = 8  # of these, apart from each other, that are placed again by distances
 ROUNDS = 3  # of placing and deforming
 APART = 0.06  # root mean square distance, in root areas of the whole, between two maps that are two
@@ -61,15 +63,32 @@ def part_maps(
     likeliest, vertices are placed anew by distances from those that fit well (`LocalStress`), a few times.
     """
     ours, theirs = side_by_side(inner_extremities, (source, target))
+    found = _from_anchors(source, target, meshes, ours, theirs, None)
+    tell(0.6)
+    if not found or found[0].neg_log_likelihood > DOUBTFUL:
+        (ours, tips), (goals, ends) = with_interior(source, INTERIOR[0]), with_interior(target, INTERIOR[1])
+        more = _from_anchors(source, target, meshes, ours, goals, tips[:, None] == ends[None])
+        found = distinct_maps([*found, *more], meshes[0])
+    return found
+
+
+def _from_anchors(
+    source: Surface,
+    target: Surface,
+    meshes: tuple[DeformableMesh, DeformableMesh],
+    ours: Anchors,
+    theirs: Anchors,
+    alike: Bools | None,
+) -> list[PartMap]:
+    """Maps from assignments of the anchors of both, the likeliest first."""
     if len(ours.vertices) < 2 or len(theirs.vertices) < 2:
         return []
-    assigned = consistent_assignments(ours.distances[:, ours.vertices], theirs.distances[:, theirs.vertices])
+    between = ours.distances[:, ours.vertices], theirs.distances[:, theirs.vertices]
+    assigned = consistent_assignments(*between, alike)
     rows = Trilateration(source.mesh, target.mesh, ours, theirs, meshes[0].origin, meshes[1].origin)
     residuals = side_by_side(rows.residual, assigned)
     likely = [assigned[i] for i in np.argsort(residuals, kind="stable")[:REGISTERED]]
-    tell(0.3)
     begun = side_by_side(lambda one: _deformed(meshes, rows.images(one)), likely)
-    tell(0.6)
     apart = distinct_maps(begun, meshes[0])[:IMPROVED]
     return distinct_maps(side_by_side(functools.partial(improved, meshes), apart), meshes[0])
 

@@ -77,6 +77,7 @@ def distance_forms(mesh: Mesh, distances: Floats) -> Floats:
     forms = np.zeros((k, k, mesh.n_vertices))
     for i, j in itertools.combinations(range(k), 2):
         wedge = 0.5 * (first[i] * second[j] - first[j] * second[i])  # the integral over each face
-        forms[i, j] = vertex_sums(mesh.faces, wedge, mesh.n_vertices) / np.maximum(area, np.finfo(float).tiny)
+        total = vertex_sums(mesh.faces, wedge, mesh.n_vertices)
+        forms[i, j] = np.clip(np.divide(total, area, out=np.zeros_like(area), where=area > 0), -1.0, 1.0)
         forms[j, i] = -forms[i, j]
     return forms

@@ -67,13 +67,20 @@ def test_small_surfaces_and_given_distances_have_no_copies() -> None:
     assert "solved_vertices" not in gmds.match(animal(), animal()).meta
 
 
-def test_what_can_not_be_decimated_stays_whole() -> None:
+def test_what_is_no_manifold_is_cut_apart_and_decimated() -> None:
     mesh = whole()
     fin = Mesh(
         np.vstack([mesh.vertices, mesh.vertices[mesh.faces[0]].mean(axis=0) * 1.1]),
         np.vstack([mesh.faces, [*mesh.faces[0, :2], mesh.n_vertices]]),
     )
-    surface = measure(fin)
+    copy = coarse(measure(fin))
+    assert copy.mesh.n_vertices < 0.6 * fin.n_vertices
+    assert np.isfinite(copy.mesh.vertices).all() and abs(copy.mesh.area - 1) < 1e-9
+
+
+def test_what_cannot_be_decimated_stays_whole(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(coarsening, "decimated", lambda mesh, n_faces: None)
+    surface = measure(whole())
     assert coarse(surface) is surface
 
 
