@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from geodesics import embedded, lumped_mass
 from geodesics.arrays import Bools, Floats, Integers
-from geodesics.caching import memoized
+from geodesics.caching import cached_property
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
 from gmds.errors import MapArray, MapError
-from gmds.maps.images import FAR, covered, image, preimage
+from gmds.maps.images import FAR, image, preimage
 from gmds.maps.npz_format import read_map, write_map
+from gmds.maps.overlap import covered, overlap
 from gmds.maps.point_map import Candidate, MatchStatus
 from gmds.maps.rows import check_rows
 from gmds.maps.values import carry
@@ -104,15 +104,15 @@ class Correspondence:
         """For notebooks: a small picture and a few figures (see `gmds.report.notebook`)."""
         return mimebundle(self)
 
-    @property
+    @cached_property
     def covered(self) -> Bools:
         """Which target vertices (n_target,) the valid part of the source reaches."""
-        return reached(self)
+        return covered(self)
 
     @property
     def overlap(self) -> tuple[float, float]:
         """The shares in [0, 1] of the area of the source that is valid, and of that of the target that is covered."""
-        return area_share(self.source, self.valid), area_share(self.target, self.covered)
+        return overlap(self)
 
     def vertex_map(self) -> Integers:
         """The target vertex nearest to each point, among the corners of its face: int64 array of shape (n,)."""
@@ -136,8 +136,7 @@ class Correspondence:
         Raises
         ------
         MapError
-            When there is not one value per target vertex.
-        """
+            When there is not one value per target vertex."""
         moved = carry(self.points, np.asarray(values), labels)
         if fill is not None:
             moved[~self.valid] = fill
@@ -168,9 +167,8 @@ class Correspondence:
             raise MapError("the second map must start on the very mesh (the same object) on which the first one ends")
         points, valid, distortion = image(other, self.points)
         status = max(self.status, other.status, key=lambda status: status.rank)
-        return Correspondence(
-            self.source, other.target, points, self.valid & valid, self.distortion + distortion, status
-        )
+        valid, distortion = self.valid & valid, self.distortion + distortion
+        return Correspondence(self.source, other.target, points, valid, distortion, status)
 
     def report(self, path: str | os.PathLike[str], errors: ArrayLike | None = None, **options: Any) -> None:
         """Write a page to look at this map in a browser; see `gmds.report.write_report`."""
@@ -182,14 +180,9 @@ class Correspondence:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write map.npz, version 1 (see `gmds.maps.npz_format`), atomically, without candidates. Raises `OSError`."""
-        arrays = {
-            "face": self.points.face,
-            "barycentric": self.points.barycentric,
-            "vertex": self.vertex_map(),
-            "valid": self.valid,
-            "distortion": self.distortion,
-        }
-        write_map(path, arrays, {**self.meta, "status": self.status.name}, self.source, self.target)
+        arrays = {"face": self.points.face, "barycentric": self.points.barycentric, "vertex": self.vertex_map()}
+        flags = {"valid": self.valid, "distortion": self.distortion}
+        write_map(path, {**arrays, **flags}, {**self.meta, "status": self.status.name}, self.source, self.target)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str], source: Mesh, target: Mesh) -> Correspondence:
@@ -205,15 +198,3 @@ class Correspondence:
             return cls(source, target, points, arrays["valid"], arrays["distortion"], status, (), meta)
         except ValueError as error:
             raise MapArray(f"{path}: {error}") from error
-
-
-@memoized
-def reached(answer: Correspondence) -> Bools:
-    """`gmds.maps.images.covered`, computed once for a map."""
-    return covered(answer)
-
-
-def area_share(mesh: Mesh, vertices: Bools) -> float:
-    """The share in [0, 1] of the area of a mesh that belongs to some of its vertices (n,)."""
-    area = lumped_mass(embedded(mesh)).diagonal()
-    return float(area[vertices].sum() / area.sum())

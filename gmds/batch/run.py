@@ -27,7 +27,7 @@ from gmds.suggestions import check_keys
 
 Progress = Callable[[str, float], None]
 
-OPTIONS = ("distance", "loss", "n_samples", "orientation", "rng")
+OPTIONS = ("distance", "loss", "n_samples", "orientation", "parts", "rng")
 LEFT_OVER = ("*/.gmds-*.tmp", "pairs/.*.late")  # by processes that were killed
 MEASURING, CYCLES = 0.1, 0.02  # shares of the bar of progress, about those of the time; set by hand
 
@@ -65,7 +65,7 @@ def match_collection(
     progress : function, optional
         Told what is being done, and how much of it all is done, from 0 to 1.
     **options
-        Those of `match`: distance, loss, n_samples, orientation, rng.
+        Those of `match`: distance, loss, n_samples, orientation, parts, rng.
 
     Returns
     -------
@@ -123,6 +123,7 @@ class _Run:
         self.parameters = {
             **method_in_words(self.options.get("distance"), self.options.get("loss") or LeastSquares()),
             "orientation": self.options.get("orientation", "preserve"),
+            "parts": self.options.get("parts", "auto"),
             "rng": self.options.get("rng", 0),
         }
         self.store = Store(self.folder / "shapes")

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 METRICS = ("embedded", "scale-invariant", "min-curvature", "equi-affine", "affine")
 DISTANCES = ("biharmonic", "commute-time", "diffusion", "geodesic")
 LOSSES = ("least-squares", "huber", "power", "minimax")
+PARTS = ("auto", "neither", "source", "target")  # as `match` has them: importing them costs a second
 
 metric_option = click.option("--metric", type=click.Choice(METRICS), help="Metric in which distances are measured.")
 distance_option = click.option("--distance", type=click.Choice(DISTANCES), help="Distance that the map preserves.")

@@ -13,6 +13,7 @@ from gmds.maps.npz_format import read_meta
 from gmds.provenance import in_words
 
 NEEDED = {"n_samples", "orientation", "rng", "loss", "distance"}  # the parameters that every map records
+BEFORE_PARTS = "neither"  # what stands for `parts` in maps that were made before there was a choice
 
 
 def map_settings(path: Path) -> dict[str, dict[str, Any]]:
@@ -31,6 +32,7 @@ def map_settings(path: Path) -> dict[str, dict[str, Any]]:
     if version != __version__:
         note(f"{path} was made by gmds {version}; this is {__version__}, and the map may become another")
     matching = {"samples": made["n_samples"], "orientation": made["orientation"], "seed": made["rng"]}
+    matching["parts"] = made.get("parts", BEFORE_PARTS)
     matching["loss"] = _named(path, "loss", made["loss"], ((name, chosen_loss(name)) for name in LOSSES))
     if made["distance"] is not None:
         pairs = (((m, d), ChosenDistance(m, d)) for m in METRICS for d in DISTANCES)

@@ -7,13 +7,20 @@ from typing import Any
 
 import click
 
-from gmds.cli.choices import LOSSES, chosen_distance, chosen_loss, distance_option, metric_option
+from gmds.cli.choices import LOSSES, PARTS, chosen_distance, chosen_loss, distance_option, metric_option
 from gmds.cli.output import seed_option
 
 OPTIONS = (
     click.option("--samples", type=int, help="How many samples the embedding places.  [default: 300]"),
     click.option(
         "--orientation", type=click.Choice(["preserve", "reverse", "any"]), default="preserve", show_default=True
+    ),
+    click.option(
+        "--parts",
+        type=click.Choice(PARTS),
+        default="auto",
+        show_default=True,
+        help="Which is a part of what the other one is; auto looks into it for meshes with a boundary.",
     ),
     metric_option,
     distance_option,
@@ -26,7 +33,7 @@ OPTIONS = (
     ),
     seed_option,
 )
-NAMES = ("samples", "orientation", "metric", "distance", "loss", "seed")
+NAMES = ("samples", "orientation", "parts", "metric", "distance", "loss", "seed")
 
 
 def matching_options(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -43,5 +50,6 @@ def matching_arguments(options: Mapping[str, Any]) -> dict[str, Any]:
         "loss": chosen_loss(options["loss"]),
         "n_samples": options["samples"],
         "orientation": options["orientation"],
+        "parts": options["parts"],
         "rng": options["seed"],
     }

@@ -38,20 +38,6 @@ def preimage(answer: PointMap, vertices: ArrayLike) -> tuple[SurfacePoints, Floa
     return SurfacePoints(source, usable[face], weights), gap / size
 
 
-def covered(answer: PointMap) -> Bools:
-    """Which target vertices (q,) the map reaches: those on a face, near the image of a valid face of the source.
-
-    Near is within `COVERED` spacings of vertices: those of the target, or of the source where these are wider.
-    """
-    used = np.zeros(answer.target.n_vertices, dtype=bool)
-    used[answer.target.faces] = True
-    wider = 1 / np.sqrt(min(int(used.sum()), int(answer.valid.sum()) or 1))
-    reached = np.zeros(len(used), dtype=bool)
-    rows = np.flatnonzero(used)
-    reached[rows] = preimage(answer, rows)[1] < COVERED * wider
-    return reached
-
-
 def image(answer: PointMap, points: SurfacePoints) -> tuple[SurfacePoints, Bools, Floats]:
     """Where a map sends points (p) of its source, anywhere on the faces; `valid` (p,) and `distortion` (p,) there.
 

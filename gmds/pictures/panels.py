@@ -13,6 +13,7 @@ from geodesics import Mesh
 from geodesics.arrays import Floats
 from geodesics.io import atomic_write
 from gmds.errors import PictureFormat, RenderingError
+from gmds.maps.overlap import covered_of
 from gmds.maps.point_map import PointMap
 from gmds.pictures.camera import Direction, alignment, broadside
 from gmds.pictures.colours import (
@@ -44,7 +45,7 @@ def write_picture(
 ) -> str:
     """A picture of source and target in which corresponding points have the same colour.
 
-    Vertices that are not valid are grey.
+    Grey is what has no counterpart: vertices of the source that are not valid, of the target that are not covered.
 
     Parameters
     ----------
@@ -105,6 +106,7 @@ def map_panels(
     colours = position_colours(answer.target.vertices)
     pulled = answer.points.interpolate(colours)
     pulled[~answer.valid] = MISSING
+    colours[~covered_of(answer)] = MISSING
     panels = [
         Panel(names[0], Shot(answer.source, pulled, view, pixels)),
         Panel(names[1], Shot(answer.target, colours, view @ alignment(answer), pixels)),

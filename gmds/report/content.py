@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from geodesics import Mesh, SurfacePoints
 from geodesics.arrays import Bools, Floats, Integers
 from gmds.evaluation import error_curve
-from gmds.maps.images import FAR, preimage
+from gmds.maps.images import preimage
+from gmds.maps.overlap import reach
 from gmds.maps.point_map import Candidate, MatchStatus, PointMap
 from gmds.pictures.colours import MISSING, nearest_known, position_colours, shown_range, value_colours
 from gmds.report.drawing import Drawing
@@ -27,7 +28,7 @@ MATCH = (
     "A point and its partner on the other surface have the same colour. Look for a part that has the colour of "
     "another part, a left leg that of a right leg, say: there the map is wrong."
 )
-VALID = "Which points have a partner. One without may be on a part that the other surface lacks."
+VALID = "Which points of either surface have a partner. Those without are on a part that the other surface lacks."
 DISTORTION = (
     "How badly distances around a point are preserved, which can be told without knowing the truth: dark blue is "
     "trustworthy, yellow is where to look first."
@@ -143,7 +144,7 @@ def _map(
     """Where each drawn vertex goes, there and back, and what the colours of the surfaces stand for."""
     (ours, theirs), (here, there) = drawn, (drawn[0].origin, drawn[1].origin)
     points, gap = preimage(one, there)
-    reached = (gap <= FAR) & np.isin(there, one.target.faces)
+    reached = (gap < reach(one)) & np.isin(there, one.target.faces)
     colours = one.points.interpolate(target_colours)
     colours[~one.valid] = MISSING
     values: dict[str, list[NDArray[Any]]] = {"valid": [one.valid[here].astype(np.uint8), reached.astype(np.uint8)]}

@@ -27,12 +27,18 @@ def mimebundle(answer: PointMap) -> dict[str, str]:
 def _table(answer: PointMap) -> str:
     state = table_rows([("status", f"{answer.status.name}: {answer.status.value}")])
     hint = "<code>.report('map.html')</code> makes a page to turn it in a browser."
-    return f'<table style="text-align:left">{state}{facts(answer, None)}</table><small>{hint}</small>'
+    told = state + facts(answer, None, shares=_is_small(answer))
+    return f'<table style="text-align:left">{told}</table><small>{hint}</small>'
+
+
+def _is_small(answer: PointMap) -> bool:
+    """Whether what takes its time is done all the same."""
+    return answer.source.n_faces + answer.target.n_faces <= MOST_FACES
 
 
 def _picture(answer: PointMap) -> str:
     """The picture as an element of a page; nothing where it cannot be drawn, or not soon."""
-    if answer.source.n_faces + answer.target.n_faces > MOST_FACES:
+    if not _is_small(answer):
         return ""
     try:
         panels = map_panels(answer, pixels=PIXELS)

@@ -12,6 +12,7 @@ import numpy as np
 from geodesics.arrays import Floats
 from gmds.evaluation import summary
 from gmds.maps.npz_format import fingerprint
+from gmds.maps.overlap import overlap
 from gmds.maps.point_map import MatchStatus, PointMap
 
 Rows = list[tuple[str, str]]
@@ -58,14 +59,20 @@ def advice(answer: PointMap) -> str:
     return f"<ul>{''.join(f'<li>{html.escape(sentence)}</li>' for sentence in sentences)}</ul>"
 
 
-def facts(answer: PointMap, errors: Floats | None) -> str:
-    """Counts, the share of valid vertices, distortion, and errors by the protocol, as rows of a table."""
+def facts(answer: PointMap, errors: Floats | None, *, shares: bool = True) -> str:
+    """Counts, what has a counterpart, distortion, and errors by the protocol, as rows of a table.
+
+    `shares`: whether to tell how much of the area of both is matched, which takes 2 s for 100,000 vertices.
+    """
     valid = answer.valid
     rows = [
         ("vertices, faces of the source", f"{answer.source.n_vertices:,}, {answer.source.n_faces:,}"),
         ("vertices, faces of the target", f"{answer.target.n_vertices:,}, {answer.target.n_faces:,}"),
         ("source vertices with a counterpart", f"{int(valid.sum()):,}, {100 * valid.mean():.1f} %"),
     ]
+    if shares:
+        ours, theirs = (f"{100 * share:.1f} %" for share in overlap(answer))
+        rows.append(("area with a counterpart, of the source and of the target", f"{ours}, {theirs}"))
     if valid.any() and np.ptp(answer.distortion) > 0:
         middle, most = np.median(answer.distortion[valid]), answer.distortion[valid].max()
         rows.append(("distortion, median and largest", f"{middle:.4g}, {most:.4g}"))

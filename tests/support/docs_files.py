@@ -18,7 +18,7 @@ from gmds.matching.pipeline import SAMPLES
 from gmds.shapes import Figure, quadruped, truth
 
 N = 300  # vertices; fewer are matched badly
-DEFAULTS = ("None", "0", "'preserve'", repr(gmds.LeastSquares()), str(SAMPLES))  # of the options of `match`
+DEFAULTS = ("None", "0", "'preserve'", "'auto'", repr(gmds.LeastSquares()), str(SAMPLES))  # of the options of `match`
 
 
 def small_pair() -> tuple[Figure, Figure, SurfacePoints]:
@@ -28,7 +28,7 @@ def small_pair() -> tuple[Figure, Figure, SurfacePoints]:
 
 
 def write_files(folder: Path) -> None:
-    """dog.ply, wolf.off, the true map between them, landmarks, values, looks, a folder of meshes and a benchmark."""
+    """dog.ply, half-dog.ply, wolf.off, the true map between them, landmarks, values, looks, folders."""
     dog, wolf, true = small_pair()
     exact = [Mesh(mesh.vertices.astype(np.float32), mesh.faces) for mesh in (dog, wolf)]  # the same in all formats
     write_mesh(exact[0], folder / "dog.ply")
@@ -38,6 +38,9 @@ def write_files(folder: Path) -> None:
     Correspondence.from_points(source, points).save(folder / "map.npz")
     vertices = true.nearest_vertices()
     np.savez(folder / "truth.npz", src=np.arange(N), gt=vertices)
+    front = (source.vertices[source.faces][:, :, 0] > -0.1).all(axis=1)
+    kept, rows = np.unique(source.faces[front], return_inverse=True)
+    write_mesh(Mesh(source.vertices[kept], rows.reshape(-1, 3)), folder / "half-dog.ply")
     _write_landmarks(folder, source, target, vertices)
     for name, mesh in (("ras-dog.ply", source), ("ras-wolf.off", target)):
         write_mesh(Mesh(mesh.vertices * [-1, -1, 1], mesh.faces), folder / name)

@@ -34,6 +34,7 @@ def command(source: Path, target: Path, output: Path, as_json: bool, **options: 
     \b
       gmds match dog.ply wolf.off -o map.npz --report map.html --picture map.png
       gmds match dog.ply wolf.off --landmarks dog.csv --landmarks wolf.csv
+      gmds match half-dog.ply wolf.off --parts source
 
     Meshes are OFF, OBJ, PLY, STL, GLB or TOSCA .vert/.tri files. The map is a .npz that numpy alone can read.
 
@@ -41,6 +42,10 @@ def command(source: Path, target: Path, output: Path, as_json: bool, **options: 
     three weights a line, and perhaps a tolerance behind them; or a map, for those it was made with; or, with the option
     given twice, a file for SOURCE then one for TARGET (.csv, .mrk.json, .fcsv, .tps, .pts, .vts), whose points belong
     together by name when both have names, else by order.
+
+    A mesh with a boundary may be a part of what the other one is: a scan from one side, half a skull. Unless landmarks,
+    a metric or a distance are given, that is looked into, and the shares of both that correspond are told (overlap);
+    --parts says it beforehand, or spares the time (neither).
     """
     import time
 
@@ -70,6 +75,7 @@ def map_summary(answer: Any) -> dict[str, Any]:
         "status": answer.status.name,
         "meaning": answer.status.value,
         "valid": f"{int(answer.valid.sum())} of {len(answer.valid)}",
+        "overlap": "{:.1%} of the source, {:.1%} of the target".format(*answer.overlap),
         "median_distortion": float(np.median(answer.distortion)),
         "candidates": candidates,
     }

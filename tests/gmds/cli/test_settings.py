@@ -18,8 +18,9 @@ from hypothesis import strategies as st
 import gmds
 from geodesics import Mesh, write_mesh
 from gmds.cli import main
-from gmds.cli.choices import DISTANCES, LOSSES, METRICS
+from gmds.cli.choices import DISTANCES, LOSSES, METRICS, PARTS
 from gmds.maps.npz_format import read_meta
+from gmds.matching.part_answers import PARTS as PARTS_OF_MATCH
 
 COMMANDS = ("match", "batch", "benchmark")
 GIVEN: dict[str, list[object]] = {
@@ -27,7 +28,20 @@ GIVEN: dict[str, list[object]] = {
     "batch": ["folder", "--pairs", "template=x", "--both-ways", "--timeout", 2.5, "--workers", 3, "-o", "there"],
     "benchmark": ["folder", "--every", 4, "--pairs", "some.txt", "-o", "rows.csv"],
 }
-MATCHING: list[object] = ["--samples", 77, "--orientation", "any", "--metric", "affine", "--loss", "huber", "--seed", 5]
+MATCHING: list[object] = [
+    "--samples",
+    77,
+    "--orientation",
+    "any",
+    "--parts",
+    "neither",
+    "--metric",
+    "affine",
+    "--loss",
+    "huber",
+    "--seed",
+    5,
+]
 
 
 def run(*args: object) -> Result:
@@ -75,7 +89,7 @@ def test_everything_is_told_set_or_not() -> None:
     unset = ("source", "target", "report", "picture", "up", "tolerance")
     assert f"# not set: {', '.join(f'match.{name}' for name in unset)}, matching.samples" in text
     said = tomllib.loads(text)
-    assert said["matching"] == {"orientation": "preserve", "loss": "least-squares", "seed": 0}
+    assert said["matching"] == {"orientation": "preserve", "parts": "auto", "loss": "least-squares", "seed": 0}
     assert said["match"]["output"] == "map.npz"
 
 
@@ -129,6 +143,7 @@ def test_one_file_serves_all_commands(file: Path) -> None:
         ("[matching]\nsamples = 3.5", "matching.samples must be a whole number, not 3.5"),
         ("[matching]\nseed = true", "matching.seed must be a whole number, not True"),
         ("[matching]\nmetric = 'embeded'", "matching.metric cannot be 'embeded'; did you mean 'embedded'?"),
+        ("[matching]\nparts = 'sourc'", "matching.parts cannot be 'sourc'; did you mean 'source'?"),
         ("[matching]\nloss = ['huber']", "matching.loss must be text in quotes"),
         ("[match]\nlandmarks = 'a.csv'", "match.landmarks must be a list of text in quotes"),
         ("[match]\nlandmarks = [3]", "match.landmarks must be a list of text in quotes, not [3]"),
@@ -168,7 +183,12 @@ def test_what_is_needed_may_be_in_the_file(pair: tuple[Path, Path], file: Path, 
 
 
 @pytest.mark.parametrize(
-    "options", [[], ["--samples", 40, "--loss", "huber", "--orientation", "any", "--metric", "embedded", "--seed", 3]]
+    "options",
+    [
+        [],
+        ["--samples", 40, "--loss", "huber", "--orientation", "any", "--metric", "embedded", "--seed", 3],
+        ["--samples", 40, "--parts", "neither"],
+    ],
 )
 def test_a_map_holds_what_makes_it_again(options: list[object], pair: tuple[Path, Path], tmp_path: Path) -> None:
     first, again = tmp_path / "first.npz", tmp_path / "again.npz"
@@ -203,3 +223,17 @@ def test_a_map_of_another_version_is_told(pair: tuple[Path, Path], tmp_path: Pat
     )
     result = run("match", "--config", tmp_path / "old.npz", "--dump-config")
     assert result.exit_code == 0 and "made by gmds 0.0.1" in result.stderr
+
+
+def test_a_map_from_before_there_were_parts_is_made_again_without_them(tmp_path: Path) -> None:
+    mesh = bumpy_sphere(1)
+    answer = gmds.match(mesh, mesh, parts="neither")
+    old = {key: value for key, value in answer.meta["parameters"].items() if key != "parts"}
+    gmds.Correspondence.from_points(mesh, answer.points, meta={**answer.meta, "parameters": old}).save(
+        tmp_path / "old.npz"
+    )
+    assert tomllib.loads(dumped("match", "--config", tmp_path / "old.npz"))["matching"]["parts"] == "neither"
+
+
+def test_the_command_line_has_the_parts_of_match() -> None:
+    assert PARTS == PARTS_OF_MATCH

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,7 @@ from gmds import Correspondence
 from gmds.cli.fields import PICTURES
 from gmds.errors import PictureFormat, RenderingError
 from gmds.pictures.camera import alignment, broadside
-from gmds.pictures.colours import css, label_colours, position_colours, value_colours
+from gmds.pictures.colours import MISSING, css, label_colours, position_colours, value_colours
 from gmds.pictures.figure import FORMATS
 from gmds.pictures.offscreen import offscreen
 from gmds.pictures.panels import map_panels, write_picture, write_values
@@ -239,3 +240,17 @@ def test_left_and_right_differ_for_eyes_without_red_or_green() -> None:
     limbs = [np.flatnonzero((animal.vertices[:, 2] < 0.5) & (s * animal.vertices[:, 1] > 0)) for s in (1, -1)]
     left, right = (seen[limb].mean(axis=0) for limb in limbs)
     assert np.linalg.norm(left - right) > 0.1
+
+
+def test_what_has_no_counterpart_is_grey_on_both_surfaces(answer: Correspondence) -> None:
+    front = answer.source.vertices[:, 0] > 0
+    here, there, _ = map_panels(replace(answer, valid=front), pixels=60)
+    gone = (there.shot.colours == MISSING).all(axis=1)
+    covered = replace(answer, valid=front).covered
+    assert np.array_equal((here.shot.colours == MISSING).all(axis=1), ~front)
+    assert np.array_equal(gone, ~covered) and 0.2 < gone.mean() < 0.8
+    assert not (map_panels(identity(answer.target), pixels=60)[1].shot.colours == MISSING).all(axis=1).any()
+
+
+def identity(mesh: Mesh) -> Correspondence:
+    return Correspondence.from_points(mesh, SurfacePoints.at_vertices(mesh, np.arange(mesh.n_vertices)))

@@ -65,7 +65,7 @@ def test_every_vertex_carries_its_barycentric_partner(answer: Correspondence, tm
         assert np.abs(shown["there"]["position"].reshape(-1, 3) / 65535 - 0.5 - drawn).max() < 1e-5
         assert np.array_equal(shown["there"]["found"], answer.valid)
     assert np.array_equal(data["maps"][0]["back"]["face"], back.points.face)
-    assert np.array_equal(data["maps"][0]["back"]["found"], back.valid)
+    assert np.array_equal(data["maps"][0]["back"]["found"], answer.covered)
 
 
 def test_corresponding_points_have_the_same_colour(answer: Correspondence, tmp_path: Path) -> None:
@@ -85,7 +85,9 @@ def test_values_are_shown_on_both_surfaces(answer: Correspondence, tmp_path: Pat
     source, target = first["values"]["distortion"]
     assert np.allclose(source[answer.valid], answer.distortion[answer.valid]) and np.isnan(source[~answer.valid]).all()
     back = answer.inverse()
-    expected = np.where(back.valid, back.points.interpolate(np.where(answer.valid, answer.distortion, np.nan)), np.nan)
+    expected = np.where(
+        answer.covered, back.points.interpolate(np.where(answer.valid, answer.distortion, np.nan)), np.nan
+    )
     assert np.allclose(target, expected, equal_nan=True)
     assert np.allclose(first["values"]["error"][0], errors[0], atol=1e-6) and "distortion" not in second["values"]
     assert np.allclose(second["values"]["error"][0], 0.3)
@@ -188,3 +190,22 @@ def test_clusters_keep_no_face_that_is_none() -> None:
     assert 100 < copy.n_vertices <= 300
     assert all(len(set(face)) == 3 for face in copy.faces.tolist())
     assert copy.area == pytest.approx(rectangle(40, 40).area, rel=0.2)
+
+
+@pytest.fixture(scope="module")
+def half() -> Correspondence:
+    """The front of an animal on the whole of it."""
+    whole = quadruped("walk", n_vertices=600, seed=1)
+    body = quadruped(n_vertices=500)
+    faces = body.faces[(body.vertices[body.faces][:, :, 0] > -0.1).all(axis=1)]
+    return Correspondence.from_points(Mesh(body.vertices, faces), truth(body, whole))
+
+
+def test_counterparts_of_the_target_are_what_the_map_covers(half: Correspondence, tmp_path: Path) -> None:
+    write_report(tmp_path / "r.html", half)
+    text, shown = (tmp_path / "r.html").read_text(encoding="utf-8"), page_data(tmp_path / "r.html")["maps"][0]
+    assert 0.4 < half.covered.mean() < 0.7 and half.covered.mean() < half.inverse().valid.mean()
+    assert np.array_equal(shown["values"]["valid"][0], half.valid)
+    assert np.array_equal(shown["values"]["valid"][1], half.covered)
+    ours, theirs = (f"{100 * share:.1f} %" for share in half.overlap)
+    assert ours == "100.0 %" and f"<td>{ours}, {theirs}</td>" in text
