@@ -34,7 +34,7 @@ def command(source: Path, target: Path, output: Path, as_json: bool, **options: 
     \b
       gmds match dog.ply wolf.off -o map.npz --report map.html --picture map.png
       gmds match dog.ply wolf.off --landmarks dog.csv --landmarks wolf.csv
-      gmds match half-dog.ply wolf.off --parts source
+      gmds match half-dog.ply wolf.off --parts source -o half.npz
 
     Meshes are OFF, OBJ, PLY, STL, GLB or TOSCA .vert/.tri files. The map is a .npz that numpy alone can read.
 
