@@ -73,6 +73,13 @@ class Surface:
         """Area (n,) around each vertex."""
         return self.regular.spectrum.mass
 
+    @property
+    def reflected(self) -> bool:
+        """Whether `mesh` is the mirror image of its part of the original, with x the other way round."""
+        used = np.unique(self.mesh.faces)
+        x = self.original.vertices[used, 0]
+        return bool((x - x.mean()) @ self.mesh.vertices[used, 0] < 0)
+
     @cached_property
     def reflection(self) -> Surface:
         """The mirror image of the surface."""

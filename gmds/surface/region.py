@@ -27,7 +27,8 @@ class Region:
     def of(cls, whole: Surface, vertices: Bools) -> Region:
         """The faces of which all corners are among the `vertices` (n,). Raises `TooFewVertices` (E113)."""
         faces = whole.face_index[vertices[whole.mesh.faces].all(axis=1)]
-        return cls(whole, measure(Mesh(whole.original.vertices, whole.original.faces[faces])), faces)
+        part = Mesh(whole.original.vertices, whole.original.faces[faces])
+        return cls(whole, measure(part, reflected=whole.reflected), faces)
 
     def on_measured(self, points: SurfacePoints) -> SurfacePoints:
         """Points of the measured region as points of the measured whole."""
