@@ -16,7 +16,7 @@ from typing import Literal
 
 from gmds._version import __version__
 
-PYTHON = (3, 11)
+PYTHON = (3, 11)  # the oldest that gmds runs on, as pyproject.toml says
 # as in pyproject.toml
 REQUIRED = (
     "numpy>=1.26",

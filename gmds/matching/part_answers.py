@@ -102,11 +102,11 @@ def part_answer(candidates: Sequence[PartCandidate], part: Part, meta: Mapping[s
         Candidate(_points(one, part), one.candidate.evidence.stress, one.candidate.evidence.orientation)
         for one in candidates[1:]
     ]
-    told = {**meta, "evidence": evidence, "solver": best.candidate.solution.status.name, "versions": versions()}
+    described = {**meta, "evidence": evidence, "solver": best.candidate.solution.status.name, "versions": versions()}
     if part == "source":
         return Correspondence(
             forward.source, forward.target, forward.points, forward.valid, forward.distortion, forward.status,
-            tuple(others), told,
+            tuple(others), described,
         )  # fmt: skip
     points, gap = preimage(forward, np.arange(forward.target.n_vertices))
     used = np.bincount(forward.target.faces.ravel(), minlength=forward.target.n_vertices) > 0
@@ -114,7 +114,7 @@ def part_answer(candidates: Sequence[PartCandidate], part: Part, meta: Mapping[s
     valid = used & (gap < COVERED * spacing)
     distortion = np.where(np.isfinite(gap), points.interpolate(forward.distortion) + gap, 1.0)
     return Correspondence(
-        forward.target, forward.source, points, valid, distortion, forward.status, tuple(others), told
+        forward.target, forward.source, points, valid, distortion, forward.status, tuple(others), described
     )
 
 
