@@ -6,6 +6,7 @@ import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import Any
 
 from geodesics import Mesh, SurfacePoints
 from gmds.deformations.bending import bending
@@ -17,7 +18,21 @@ from gmds.deformations.noise import noise
 from gmds.deformations.shot_noise import shot_noise
 
 STRENGTHS = (1, 2, 3, 4, 5)  # as in Table 1
-_NUMBERS = {"int": int, "float": float, "int | None": int}  # by annotation, as the modules write it
+
+
+def three_numbers(text: str) -> tuple[float, ...]:
+    """A direction from x:y:z; `ValueError` for another text."""
+    x, y, z = map(float, text.split(":"))
+    return x, y, z
+
+
+# how a parameter is read from text, by its annotation, as the modules write it
+_READERS: Mapping[str, Callable[[str], Any]] = {
+    "int": int,
+    "float": float,
+    "int | None": int,
+    "ArrayLike | None": three_numbers,
+}
 
 
 def local_scale(mesh: Mesh, factor: float = 1.6, *, count: int = 4, rng: int = 0) -> tuple[Mesh, SurfacePoints]:
@@ -66,12 +81,12 @@ class Kind:
         return {name: values[strength - 1] for name, values in self.table.items()}
 
     @property
-    def types(self) -> dict[str, type]:
-        """The numeric parameters, by name: int or float."""
+    def types(self) -> dict[str, Callable[[str], Any]]:
+        """How the parameters are read from text, by name: int, float, or `three_numbers` for a direction."""
         parameters = inspect.signature(self.function).parameters.values()
-        return {p.name: _NUMBERS[p.annotation] for p in parameters if p.name != "rng" and p.annotation in _NUMBERS}
+        return {p.name: _READERS[p.annotation] for p in parameters if p.name != "rng" and p.annotation in _READERS}
 
-    def apply(self, mesh: Mesh, rng: int, **parameters: float) -> tuple[Mesh, SurfacePoints]:
+    def apply(self, mesh: Mesh, rng: int, **parameters: Any) -> tuple[Mesh, SurfacePoints]:
         """The deformed mesh and the truth; `rng` is left out where nothing is random."""
         seed = {"rng": rng} if "rng" in inspect.signature(self.function).parameters else {}
         return self.function(mesh, **parameters, **seed)

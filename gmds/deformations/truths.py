@@ -8,9 +8,51 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geodesics import Mesh, SurfacePoints
+from geodesics.arrays import Bools
 from geodesics.barycentric import combination
 
 Deformation = Callable[[Mesh], tuple[Mesh, SurfacePoints]]
+
+
+class Part(tuple[Mesh, SurfacePoints]):
+    """A deformed mesh and the truth, as every deformation gives them, and which vertices of the old mesh are gone.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The deformed mesh.
+    truth : SurfacePoints
+        n points of it, one per vertex of the old mesh; that of a vertex that is gone is the remaining point closest
+        in space when it went.
+    missing : bool array of shape (n,)
+        True where the vertex of the old mesh is gone. ``mesh, truth = part`` leaves it out.
+
+    See Also
+    --------
+    cut : Makes one.
+    compose : Carries `missing` along.
+    """
+
+    missing: Bools
+
+    def __new__(cls, mesh: Mesh, truth: SurfacePoints, missing: Bools) -> Part:
+        self = super().__new__(cls, (mesh, truth))
+        self.missing = missing
+        return self
+
+    def __getnewargs__(self) -> tuple[Mesh, SurfacePoints, Bools]:  # type: ignore[override]
+        """Parts can be copied and pickled."""
+        return self.mesh, self.truth, self.missing
+
+    @property
+    def mesh(self) -> Mesh:
+        """The deformed mesh."""
+        return self[0]
+
+    @property
+    def truth(self) -> SurfacePoints:
+        """One point of it per vertex of the old mesh."""
+        return self[1]
 
 
 def moved(mesh: Mesh, vertices: ArrayLike) -> tuple[Mesh, SurfacePoints]:
@@ -47,7 +89,7 @@ def carried(points: SurfacePoints, truth: SurfacePoints) -> SurfacePoints:
     return SurfacePoints.closest(truth.mesh, combination(points.barycentric, corners))
 
 
-def compose(*deformations: Deformation) -> Deformation:
+def compose(*deformations: Deformation) -> Callable[[Mesh], Part]:
     """Several deformations, one after another, as one.
 
     Parameters
@@ -58,14 +100,19 @@ def compose(*deformations: Deformation) -> Deformation:
     Returns
     -------
     callable
-        Mesh -> (Mesh, SurfacePoints), with the truth of the first mesh's vertices on the last mesh.
+        Mesh -> `Part`, with the truth of the first mesh's vertices on the last mesh, and those of them that any of the
+        deformations removed.
     """
 
-    def together(mesh: Mesh) -> tuple[Mesh, SurfacePoints]:
+    def together(mesh: Mesh) -> Part:
         result, truth = moved(mesh, mesh.vertices)
+        missing = np.zeros(mesh.n_vertices, dtype=bool)
         for deformation in deformations:
-            result, step = deformation(result)
+            done = deformation(result)
+            if isinstance(done, Part):
+                missing |= truth.interpolate(done.missing.astype(np.float64)) > 0.5
+            result, step = done
             truth = carried(truth, step)
-        return result, truth
+        return Part(result, truth, missing)
 
     return together

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -53,14 +54,21 @@ def command(
       noise           on every vertex                     strength (in edges)
       shot-noise      on few vertices, strong             strength (in edges), share
       similarity      turned, moved and resized           largest_scale
+      cut             a share of the area is cut off      share, normal (x:y:z), centre (vertex), count
+      scan            what is seen from one side is kept  direction (x:y:z)
       remesh          other triangles                     n_vertices
 
     \b
       gmds deform dog.ply isometry local-scale --strength 5 --remesh 4000 -o other.ply --truth truth.npz
       gmds deform dog.ply isometry:2 noise:4 -o other.ply
       gmds deform dog.ply local-scale:factor=2.5,count=1 -o other.ply
+      gmds deform dog.ply isometry cut:share=0.4,normal=-1:0:0 -o half.ply --truth truth.npz
+      gmds deform dog.ply cut:share=0.3,count=4 -o part.ply
+      gmds deform dog.ply scan:direction=0:1:0 -o scan.ply
 
-    The truth is a map that `gmds evaluate` and numpy can read: for every vertex of MESH its point on the new mesh.
+    Without a normal or a centre, cut removes balls around random vertices, as many as count says.
+    The truth is a map that `gmds evaluate` and numpy can read: for every vertex of MESH its point on the new mesh;
+    those that were cut off are not valid in it.
     Only a manifold surface can be remeshed: let remesh come before topology.
     Every step draws its random choices from the seed and its place in the order.
     """
@@ -71,19 +79,27 @@ def command(
     wanted = [*kinds, *([] if remesh is None else [f"remesh:n_vertices={remesh}"])]
     steps = [_step(text, strength, seed + place) for place, text in enumerate(wanted)]
     source = read_mesh(mesh)
-    result, points = compose(*(deformation for deformation, _ in steps))(source)
+    done = compose(*(deformation for deformation, _ in steps))(source)
+    result, points = done
     write_mesh(result, output)
     if truth is not None:
-        Correspondence.from_points(source, points, meta={"parameters": {"steps": wanted, "seed": seed}}).save(truth)
+        meta = {"parameters": {"steps": wanted, "seed": seed}}
+        Correspondence.from_points(source, points, valid=~done.missing, meta=meta).save(truth)
     counts = {"file": str(output), "vertices": result.n_vertices, "faces": result.n_faces}
     emit({**counts, "steps": [said for _, said in steps]}, as_json)
 
 
 def _step(text: str, strength: int, seed: int) -> tuple[Deformation, dict[str, Any]]:
     """The deformation that KIND[:STRENGTH | :NAME=VALUE,...] stands for, and a description of it."""
-    from gmds.deformations import KINDS, Kind, remeshing, similarity
+    from gmds.deformations import KINDS, Kind, cut, remeshing, scan, similarity
 
-    known = {**KINDS, "similarity": Kind(similarity, {}), "remesh": Kind(remeshing, {})}
+    known = {
+        **KINDS,
+        "similarity": Kind(similarity, {}),
+        "remesh": Kind(remeshing, {}),
+        "cut": Kind(cut, {"share": (0.1, 0.2, 0.3, 0.4, 0.5)}),
+        "scan": Kind(scan, {}),
+    }
     name, _, detail = text.partition(":")
     if name not in known:
         raise click.UsageError(f"{name!r} is no kind of deformation; there are {', '.join(known)}")
@@ -97,7 +113,7 @@ def _step(text: str, strength: int, seed: int) -> tuple[Deformation, dict[str, A
     return lambda mesh: kind.apply(mesh, seed, **given), {"kind": name, **given}
 
 
-def _parameter(kind: str, text: str, types: dict[str, type]) -> tuple[str, float]:
+def _parameter(kind: str, text: str, types: Mapping[str, Callable[[str], Any]]) -> tuple[str, Any]:
     """The name and the value of NAME=VALUE."""
     name, _, value = text.partition("=")
     if name not in types:
@@ -105,5 +121,6 @@ def _parameter(kind: str, text: str, types: dict[str, type]) -> tuple[str, float
     try:
         return name, types[name](value)
     except ValueError:
-        wanted = "a whole number" if types[name] is int else "a number"
+        reader = types[name]
+        wanted = "a whole number" if reader is int else "a number" if reader is float else "three numbers x:y:z"
         raise click.UsageError(f"{kind}: {name} must be {wanted}, not {value!r}") from None

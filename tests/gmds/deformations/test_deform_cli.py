@@ -83,6 +83,21 @@ def test_the_truth_goes_through_growth_and_remeshing(path: Path, animal: Mesh, t
     assert gap.mean() < 0.5 * edge and gap.max() < 2 * edge  # new triangles cut the tips off
 
 
+def test_what_is_cut_off_is_not_valid_in_the_truth(path: Path, animal: Mesh, tmp_path: Path) -> None:
+    out, truth = tmp_path / "part.ply", tmp_path / "truth.npz"
+    kinds = ["isometry:2", "cut:share=0.4,normal=-1:0:0", "scale:factor=2"]
+    result = run(path, *kinds, "-o", out, "--truth", truth, "--json")
+    assert result.exit_code == 0, result.output
+    part = read_mesh(out)
+    assert json.loads(result.stdout)["steps"][1] == {"kind": "cut", "share": 0.4, "normal": [-1, 0, 0]}
+    answer = Correspondence.load(truth, animal, part)
+    assert answer.valid.sum() == part.n_vertices < 0.7 * animal.n_vertices
+    bent, _ = deformed(animal, "isometry", 2, rng=0)
+    assert np.allclose(answer.points.positions[answer.valid], 2 * bent.vertices[answer.valid], atol=1e-5)
+    assert run(path, "scan:direction=0:1:0", "-o", out).exit_code == 0
+    assert read_mesh(out).n_vertices < animal.n_vertices
+
+
 def test_the_same_seed_gives_the_same_file(path: Path, tmp_path: Path) -> None:
     for name, seed in (("a", 3), ("b", 3), ("c", 4)):
         assert run(path, "shot-noise", "-o", tmp_path / f"{name}.ply", "--seed", seed).exit_code == 0
@@ -99,6 +114,7 @@ def test_the_same_seed_gives_the_same_file(path: Path, tmp_path: Path) -> None:
         ("noise:amount=2", "has no parameter 'amount'; it has strength"),
         ("noise:strength=loud", "must be a number, not 'loud'"),
         ("topology:count=1.5", "must be a whole number"),
+        ("scan:direction=1:0", "must be three numbers x:y:z"),
     ],
 )
 def test_misuse_names_the_word(path: Path, tmp_path: Path, kind: str, message: str) -> None:
@@ -107,7 +123,7 @@ def test_misuse_names_the_word(path: Path, tmp_path: Path, kind: str, message: s
 
 
 def test_what_cannot_be_done_is_one_line(path: Path, tmp_path: Path) -> None:
-    for kind in ("scale:factor=-1", "micro-holes:radius=9"):
+    for kind in ("scale:factor=-1", "micro-holes:radius=9", "cut:share=1", "scan:direction=0:0:0"):
         result = run(path, kind, "-o", tmp_path / "x.ply")
         assert result.exit_code == 1 and len(result.stderr.splitlines()) == 1, result.output
 

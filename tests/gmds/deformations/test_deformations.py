@@ -24,6 +24,8 @@ EVERY = {
     "shot_noise": lambda m, rng: d.shot_noise(m, rng=rng),
     "holes": lambda m, rng: d.holes(m, 2, rng=rng),
     "gluing": lambda m, rng: d.gluing(m, 2, rng=rng),
+    "cut": lambda m, rng: d.cut(m, 0.3, count=3, rng=rng),
+    "scan": lambda m, rng: d.scan(m, rng=rng),
     "remeshing": lambda m, rng: d.remeshing(m, 600, rng=rng),
 }
 SAME_FACES = ("local_scaling", "global_scale", "similarity", "bending", "noise", "shot_noise")
