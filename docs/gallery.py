@@ -106,6 +106,11 @@ def eigenfunctions(path: Path, example: Names) -> None:
     write_values(path, example["panels"], title=example["metric"].__name__, pixels=PIXELS)
 
 
+def part_and_whole(path: Path, example: Names) -> None:
+    """11: the map of the whole to the part; that of the part to the whole is the picture of README."""
+    write_picture(path, example["back"], names=("whole", "part"), pixels=PIXELS)
+
+
 def specimen(path: Path, _: Names) -> None:
     """The morphometrics script has drawn its specimens itself; one of them, smaller."""
     from PIL import Image
@@ -126,6 +131,7 @@ DRAWN: dict[str, Callable[[Path, Names], None]] = {
     "08_arc_lengths": arc_lengths,
     "09_transfer": labels,
     "10_eigenfunctions": eigenfunctions,
+    "11_parts": part_and_whole,
     "morphometrics/landmark_specimens": specimen,
 }
 

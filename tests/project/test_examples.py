@@ -96,3 +96,12 @@ def test_09_transfer(run) -> None:
 def test_10_eigenfunctions_survive_local_scaling(run) -> None:
     kept = table(run(10), r"(\w+) +matched eigenfunctions correlate by ([\d.]+)")
     assert kept["scale_invariant",] > 0.9 > kept["embedded",]
+
+
+def test_11_a_part_finds_its_place(run, tmp_path: Path) -> None:
+    text = run(11)
+    here, there = (int(word) for word in re.search(r"(\d+) % of the part and (\d+) % of the whole", text).groups())
+    assert here > 97 and 55 < there < 67
+    assert float(re.search(r"mean error x100 ([\d.]+)", text).group(1)) < 2.5  # 0.6 when written
+    assert 55 < int(re.search(r"back: (\d+) %", text).group(1)) < 67
+    assert (tmp_path / "parts.png").exists()
