@@ -17,10 +17,10 @@ import multiprocessing
 import os
 import sys
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -28,7 +28,8 @@ import gmds
 from benchmarks.accuracy.runs import ONE_THREAD, code_version
 from benchmarks.markdown import table
 from benchmarks.places import RESULTS
-from geodesics import read_mesh
+from geodesics import Mesh, SurfacePoints, read_mesh
+from geodesics.arrays import Integers
 from gmds.benchmarking.run import turned
 from gmds.evaluation import geodesic_error, protocol_subset
 from gmds.shapes import quadruped
@@ -45,7 +46,7 @@ COLUMNS = (
     "recall",
     "cpu_seconds",
     "part",
-    "likelihood",
+    "margin",
 )
 GOALS = {"PFAUST-M": "3.0", "PFAUST-H": "3.5", "PFAUST-M back": "4.0 / 0.90", "PFAUST-H back": "4.0 / 0.90"}
 GOALS["PARTIALSMAL"] = "8.0 / 0.80"
@@ -60,21 +61,38 @@ def is_development(name: str) -> bool:
 def row(entry: Mapping[str, str], version: str) -> dict[str, Any]:
     """One pair, matched and judged."""
     data = Path(os.environ["GMDS_DATA"])
-    rng = np.random.default_rng([0, *entry["name"].encode()])
-    source, target = (turned(read_mesh(data / entry[side]), rng) for side in ("source", "target"))
+    meshes = [read_mesh(data / entry[side]) for side in ("source", "target")]
     truth = np.load(data / entry["truth"])
+    return judged_row(entry, (meshes[0], meshes[1]), Known(truth["src"], truth["gt"], truth["missing"]), version)
+
+
+class Known(NamedTuple):
+    """What is known of a pair: source vertices (k,), their vertices or points on the target, and vertices without."""
+
+    there: Integers
+    points: Integers | SurfacePoints
+    missing: Integers
+
+
+def judged_row(names: Mapping[str, str], meshes: tuple[Mesh, Mesh], known: Known, version: str) -> dict[str, Any]:
+    """Two meshes turned and resized at random by the `name` of the pair, matched and judged."""
+    rng = np.random.default_rng([0, *names["name"].encode()])
+    source, target = (turned(mesh, rng) for mesh in meshes)
+    truth = known.points
+    if isinstance(truth, SurfacePoints):
+        truth = SurfacePoints(target, truth.face, truth.barycentric)
     gmds.match(quadruped(n_vertices=600), quadruped(n_vertices=600))  # so that no pair pays for imports
     started = time.process_time()
     answer = gmds.match(source, target)
     seconds = time.process_time() - started
-    judged = protocol_subset(len(truth["src"]))
-    error = 100 * float(geodesic_error(answer, truth["gt"][judged], truth["src"][judged]).mean())
-    there, gone = np.unique(truth["src"]), np.setdiff1d(truth["missing"], truth["src"])
+    judged = protocol_subset(len(known.there))
+    error = 100 * float(geodesic_error(answer, truth[judged], known.there[judged]).mean())
+    there, gone = np.unique(known.there), np.setdiff1d(known.missing, known.there)
     kept, wrong = int(answer.valid[there].sum()), int(answer.valid[gone].sum())
     evidence = answer.meta["evidence"]
     return {
-        "pair": entry["name"],
-        "group": entry["group"],
+        "pair": names["name"],
+        "group": names["group"],
         "version": version,
         "status": answer.status.name,
         "error": f"{error:.3f}",
@@ -95,12 +113,43 @@ def read_rows(path: Path, version: str) -> dict[str, dict[str, str]]:
         return {line["pair"]: line for line in csv.DictReader(stream) if line["version"] == version}
 
 
+def run(
+    judge: Callable[..., dict[str, Any]], todo: Iterable[Any], path: Path, version: str, workers: int
+) -> dict[str, dict[str, Any]]:
+    """All rows of this version, those of `judge` of what is still to do among them; each written as it comes."""
+    rows: dict[str, dict[str, Any]] = {**read_rows(path, version)}
+    with ProcessPoolExecutor(workers, multiprocessing.get_context("spawn")) as pool:
+        futures = [pool.submit(judge, one, version) for one in todo]
+        for done in as_completed(futures):
+            found = done.result()
+            rows[found["pair"]] = found
+            write_rows(path, rows)
+            print(*found.values(), file=sys.stderr)
+    return rows
+
+
 def write_rows(path: Path, rows: Mapping[str, Mapping[str, Any]]) -> None:
     """All rows, ordered by group and pair."""
     with path.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n")
         writer.writeheader()
         writer.writerows(sorted(rows.values(), key=lambda one: (one["group"], one["pair"])))
+
+
+NAMES = ["group", "pairs", "error x100", "median", "worst", f"above {FAILED}", "IoU", "precision", "recall"]
+NAMES += ["above 15 and GOOD", "below 5 and POOR", "CPU s", "goal"]
+
+
+def cells_of(group: str, some: Sequence[Mapping[str, str]], goal: str) -> list[Any]:
+    """A group as a row of the table with the columns `NAMES`."""
+    errors = np.array([float(one["error"]) for one in some])
+    figures = [f"{errors.mean():.2f}", f"{np.median(errors):.2f}", f"{errors.max():.2f}"]
+    means = [f"{np.mean([float(one[key]) for one in some]):.2f}" for key in ("iou", "precision", "recall")]
+    good = sum(one["status"] == "GOOD" and float(one["error"]) > 15 for one in some)
+    poor = sum(one["status"] == "POOR" and float(one["error"]) < 5 for one in some)
+    seconds = f"{np.median([float(one['cpu_seconds']) for one in some]):.1f}"
+    failed = f"{(errors > FAILED).sum()} of {len(some)}"
+    return [group, len(some), *figures, failed, *means, good, poor, seconds, goal]
 
 
 def page(rows: Sequence[Mapping[str, str]], version: str) -> str:
@@ -111,17 +160,8 @@ def page(rows: Sequence[Mapping[str, str]], version: str) -> str:
         for group in GOALS:
             some = [one for one in rows if one["group"] == group and is_development(one["pair"]) == half]
             if some:
-                errors = np.array([float(one["error"]) for one in some])
-                figures = [f"{errors.mean():.2f}", f"{np.median(errors):.2f}", f"{errors.max():.2f}"]
-                means = [f"{np.mean([float(one[key]) for one in some]):.2f}" for key in ("iou", "precision", "recall")]
-                good = sum(one["status"] == "GOOD" and float(one["error"]) > 15 for one in some)
-                poor = sum(one["status"] == "POOR" and float(one["error"]) < 5 for one in some)
-                seconds = f"{np.median([float(one['cpu_seconds']) for one in some]):.1f}"
-                failed = f"{(errors > FAILED).sum()} of {len(some)}"
-                cells.append([group, len(some), *figures, failed, *means, good, poor, seconds, GOALS[group]])
-        names = ["group", "pairs", "error x100", "median", "worst", f"above {FAILED}", "IoU", "precision", "recall"]
-        names += ["above 15 and GOOD", "below 5 and POOR", "CPU s", "goal"]
-        lines += [f"## {title}", "", *table(names, cells), ""]
+                cells.append(cells_of(group, some, GOALS[group]))
+        lines += [f"## {title}", "", *table(NAMES, cells), ""]
     return "\n".join(lines)
 
 
@@ -139,15 +179,8 @@ def main() -> None:
     if options.half is not None:
         entries = [one for one in entries if is_development(one["name"]) == (options.half == "development")]
     path, version = options.output / "parts.csv", code_version()
-    rows = read_rows(path, version)
-    todo = [one for one in entries if one["name"] not in rows]
-    with ProcessPoolExecutor(options.workers, multiprocessing.get_context("spawn")) as pool:
-        futures = [pool.submit(row, one, version) for one in todo]
-        for done in as_completed(futures):
-            found = done.result()
-            rows[found["pair"]] = found
-            write_rows(path, rows)
-            print(*found.values(), file=sys.stderr)
+    todo = [one for one in entries if one["name"] not in read_rows(path, version)]
+    rows = run(row, todo, path, version, options.workers)
     text = page(list(rows.values()), version)
     (options.output / "parts.md").write_text(text, encoding="utf-8")
     print(text)

@@ -180,3 +180,19 @@ def test_tables_hold_across_commits_that_only_move(
     assert versions[0] == versions[1] != versions[2] == git("log", "-1", "--format=%h")
     (tmp_path / "gmds" / "a.py").write_text("x = 1")
     assert runs.code_version().startswith(f"{versions[2]}+")
+
+
+def test_cuts_are_twenty_and_their_truth_is_exact(scripts: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    cuts = scripts("cuts")
+    assert len({one.name for one in cuts.CUTTINGS}) == 20
+    assert all(0.1 <= one.share <= 0.5 for one in cuts.CUTTINGS)
+    monkeypatch.setattr(cuts, "VERTICES", 800)
+    cutting = next(one for one in cuts.CUTTINGS if one.group == "built-in")
+    part, whole, there = cuts.built_in(cutting, back=False)
+    assert len(there.there) == part.mesh.n_vertices and there.points.mesh is whole and len(there.missing) == 0
+    part, whole, back = cuts.built_in(cutting, back=True)
+    assert sorted([*back.there, *back.missing]) == list(range(whole.n_vertices))
+    # what is on the part goes back to within an edge of where it came from
+    again = there.points[back.points.nearest_vertices()].positions
+    edges = np.linalg.norm(whole.vertices[whole.faces[:, 0]] - whole.vertices[whole.faces[:, 1]], axis=1)
+    assert np.linalg.norm(again - whole.vertices[back.there], axis=1).max() < 2 * edges.max()
