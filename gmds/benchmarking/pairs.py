@@ -41,7 +41,8 @@ class Pair:
     group : str, optional
         What averages are taken over.
     missing : function, optional
-        Without arguments: source vertices (q,) that are known to have no counterpart on the target.
+        Without arguments: source vertices (q,) that are known to have no counterpart on the target, perhaps none; None
+        where the data does not say.
     """
 
     name: str
@@ -49,7 +50,7 @@ class Pair:
     target: Path
     truth: TruthReader
     group: str = ""
-    missing: Callable[[], Integers] | None = None
+    missing: Callable[[], Integers | None] | None = None
 
 
 def listed(file: Path, columns: int) -> list[Sequence[str]]:

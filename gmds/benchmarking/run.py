@@ -12,6 +12,7 @@ import numpy as np
 
 from geodesics.arrays import Floats
 from geodesics.mesh import Mesh
+from gmds.benchmarking.overlap import overlap_figures
 from gmds.benchmarking.pairs import Pair
 from gmds.correspondence import Correspondence
 from gmds.evaluation import coverage, geodesic_error, protocol_subset, summary
@@ -46,6 +47,10 @@ class BenchmarkRow:
         The percentage of the source vertices with a true counterpart that the map calls valid.
     missing_found : float
         The percentage of those known to have none that it calls invalid; None where the data names none.
+    overlap_iou, valid_precision, valid_recall : float
+        Percentages, of vertices with a known answer: of those called valid or with a counterpart, how many are both; of
+        those called valid, how many have one; of those that have one, how many are called valid. None where the data
+        does not say what is missing.
     """
 
     pair: str
@@ -62,6 +67,9 @@ class BenchmarkRow:
     distortion_correlation: float | None = None
     valid: float | None = None
     missing_found: float | None = None
+    overlap_iou: float | None = None
+    valid_precision: float | None = None
+    valid_recall: float | None = None
 
 
 FIGURES = tuple(column.name for column in fields(BenchmarkRow) if column.default is None)
@@ -110,7 +118,7 @@ def judged(pair: Pair, matcher: Matcher, rng: np.random.Generator) -> BenchmarkR
     errors = geodesic_error(answer, truth[spread], indices[spread])
     direct = summary(errors[np.isin(spread, chosen)])
     sym = None if flipped is None else summary(geodesic_error(answer, flipped[chosen], indices[chosen])).mean
-    missing = np.array([], dtype=np.int64) if pair.missing is None else pair.missing()
+    missing = None if pair.missing is None else pair.missing()
     return BenchmarkRow(
         pair.name,
         pair.group,
@@ -125,7 +133,7 @@ def judged(pair: Pair, matcher: Matcher, rng: np.random.Generator) -> BenchmarkR
         within_025=direct.within_025,
         distortion_correlation=rank_correlation(answer.distortion[indices[spread]], errors),
         valid=100 * float(answer.valid[indices].mean()),
-        missing_found=100 * float((~answer.valid[missing]).mean()) if len(missing) else None,
+        **overlap_figures(answer.valid, indices, missing),
     )
 
 

@@ -101,6 +101,22 @@ def read_truth_npz(path: Path) -> tuple[Integers, Integers, Integers | None]:
     return wanted[0], wanted[1], flipped
 
 
+def read_missing_npz(path: Path) -> Integers | None:
+    """Source vertices (q,) that have no counterpart, 0-based: `missing` of a truth npz, what is not valid in a map.
+
+    None where the file does not say. Raises `FormatError`.
+    """
+    arrays = read_npz(path)
+    if "barycentric" in arrays and "valid" in arrays:
+        return np.flatnonzero(~arrays["valid"].astype(np.bool_))
+    if "missing" not in arrays:
+        return None
+    try:
+        return whole_numbers(arrays["missing"].reshape(-1))
+    except ValueError as error:
+        raise BadTruth(f"{path}: missing must be whole numbers ({error})") from error
+
+
 def whole_numbers(array: NDArray[Any]) -> Integers:
     """Indices from 0 as int64. Raises `ValueError` for fractions, negative numbers and anything that is no number."""
     if array.dtype.kind not in "iuf" or not (np.isfinite(array) & (array >= 0) & (array < 2**62)).all():

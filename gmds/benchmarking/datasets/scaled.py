@@ -1,14 +1,15 @@
-"""Locally scaled pairs: `pairs.json`, a list of pairs with their files and groups; truth in .npz files."""
+"""Locally scaled pairs, and parts: `pairs.json`, a list of pairs with files and groups; truth in .npz files."""
 
 from __future__ import annotations
 
+import functools
 import json
 from pathlib import Path
 
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
 from gmds.benchmarking.pairs import Pair, Truth, UnknownDataset, listed, listing_text
-from gmds.benchmarking.truth_files import points_at, read_truth_npz
+from gmds.benchmarking.truth_files import points_at, read_missing_npz, read_truth_npz
 
 ENTRY = ("name", "source", "target", "truth", "group")  # of a pair in pairs.json
 
@@ -38,4 +39,5 @@ def _pair(root: Path, entry: dict[str, str]) -> Pair:
         from_, to, flipped = read_truth_npz(root / entry["truth"])
         return from_, SurfacePoints.at_vertices(target_mesh, to), points_at(target_mesh, flipped)
 
-    return Pair(entry["name"], root / entry["source"], root / entry["target"], truth, entry["group"])
+    missing = functools.partial(read_missing_npz, root / entry["truth"])
+    return Pair(entry["name"], root / entry["source"], root / entry["target"], truth, entry["group"], missing)

@@ -33,10 +33,11 @@ def command(
     Every mesh is turned and resized at random first. A row says: mean error x100 (geodesic distance over the square
     root of the target's area) against the true correspondence (direct), the left-right flipped one (sym) and the better
     of the two; percentage within 0.10; percentage of the target that is hit; CPU seconds; status. CSV and JSON also
-    have the percentages within 0.05 and 0.25, the rank correlation of the map's distortion with the true error, and the
-    percentage of points with a counterpart that are called valid, and of those without one that are not.
+    have the percentages within 0.05 and 0.25, the rank correlation of the map's distortion with the true error, the
+    percentage of points with a counterpart that are called valid, and of those without one that are not; and, where the
+    truth says what is missing, intersection over union, precision and recall of what is called valid.
 
-    Known folders: remeshed FAUST and TOSCA (.vts truth), locally scaled pairs (pairs.json), SHREC'20 (.mat truth).
+    Known folders: remeshed FAUST and TOSCA (.vts truth), locally scaled pairs and parts (pairs.json), SHREC'20 (.mat).
     """
     import functools
     import json

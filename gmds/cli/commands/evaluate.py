@@ -40,7 +40,8 @@ def command(
     \b
       gmds evaluate map.npz --source dog.ply --target wolf.off --truth truth.npz
 
-    Truth files: a .npz with arrays src and gt (source vertices, target vertices, both from 0), and gt_sym if known;
+    Truth files: a .npz with arrays src and gt (source vertices, target vertices, both from 0), gt_sym if known, and for
+    parts missing (source vertices without a counterpart), which adds how well the map tells them apart (overlap);
     another map.npz; a .vts file (one target vertex a line, from 1) with the source's own .vts as --source-truth, or
     with one line per source vertex; SHREC'20 .mat landmarks of both.
     """
@@ -50,7 +51,8 @@ def command(
 
     from geodesics import read_mesh
     from gmds import Correspondence
-    from gmds.benchmarking.truth_files import read_truth
+    from gmds.benchmarking.overlap import overlap_scores
+    from gmds.benchmarking.truth_files import read_missing_npz, read_truth
     from gmds.evaluation import coverage, error_curve, geodesic_error, protocol_subset, summary
 
     meshes = read_mesh(source), read_mesh(target)
@@ -76,6 +78,10 @@ def command(
     result["best"] = min(entry["mean"] for entry in result.values())
     result["coverage"] = 100 * coverage(answer)
     result["valid"] = 100 * float(answer.valid.mean())
+    missing = read_missing_npz(truth) if truth.suffix.lower() == ".npz" else None
+    if missing is not None and wanted["direct"] is not None:
+        scores = asdict(overlap_scores(answer.valid, wanted["direct"][0], missing))
+        result["overlap"] = {name: None if share is None else 100 * share for name, share in scores.items()}
     result["curve"] = curve
     emit(result, as_json)
     title = f"{map_file.name}: {source.name} → {target.name}"
