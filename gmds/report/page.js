@@ -32,10 +32,17 @@ class Page {
 
   colours(side) {
     const { map, mode } = this;
-    if (mode.key === "match") return side === 0 ? map.colours : this.data.colours;
+    if (mode.key === "match") return side === 0 ? map.colours : this.covered(this.data.colours);
     const values = map.values[mode.key][side];
     const rgb = new Uint8Array(3 * values.length);
     values.forEach((value, i) => rgb.set(mode.swatches ? mode.swatches[value] : this.ramp(value / mode.high), 3 * i));
+    return rgb;
+  }
+
+  covered(colours) {
+    // those of the target, grey where it has no counterpart
+    const rgb = Uint8Array.from(colours);
+    this.map.values.valid[1].forEach((is, i) => is || rgb.set(this.data.missing, 3 * i));
     return rgb;
   }
 

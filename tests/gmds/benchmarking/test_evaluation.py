@@ -305,6 +305,7 @@ def test_pairs_json_names_groups(tmp_path: Path) -> None:
         ("tosca_cross_5k", 30, True),
         ("scaled", 10, True),
         ("shrec20", 14, False),
+        ("partial", 50, True),
     ],
 )
 def test_published_folders_are_read(folder: str, pairs: int, flipped: bool) -> None:

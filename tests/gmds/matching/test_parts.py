@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from cut_shapes import animal_on_half, half_animal
-from generated_shapes import bumpy_sphere, moved
+from generated_shapes import bumpy_sphere, cylinder, moved, rectangle
 from matched_shapes import animal
 
 import gmds
 from geodesics import Mesh, SurfacePoints
 from gmds import Correspondence, MatchStatus
 from gmds.evaluation import geodesic_error
-from gmds.matching.part_answers import PARTS
+from gmds.matching.part_answers import PARTS, boundary_length
 from gmds.matching.parts import near_image
 from gmds.surface.measured import measure
 
@@ -128,3 +128,12 @@ def test_near_an_image_is_within_so_many_spacings() -> None:
     assert here.all()
     half = near_image(surface, surface, surface.mesh.vertices * [1, 1, 0] + [0, 0, 9], 2.0)
     assert not half.any()
+
+
+@pytest.mark.parametrize("scale", [1.0, 3.0])
+def test_the_boundary_is_as_long_as_it_is(scale: float) -> None:
+    sheet = rectangle(10, 7, 2 * scale, 3 * scale)
+    assert boundary_length(sheet) == pytest.approx(10 * scale)
+    ring = cylinder(64, 4, scale, scale)
+    assert boundary_length(ring) == pytest.approx(4 * np.pi * scale, rel=1e-3)
+    assert boundary_length(bumpy_sphere(2)) == 0

@@ -86,3 +86,15 @@ def test_the_order_of_points_does_not_matter() -> None:
 def test_indices_are_both_sides() -> None:
     ours, theirs = indices(Assignment((3, 1), (0, 2), 1.0, 0.0))
     assert ours.tolist() == [3, 1] and theirs.tolist() == [0, 2]
+
+
+def test_only_what_is_alike_is_assigned() -> None:
+    ours, theirs, true = planted(5, 4, 1.2)
+    alike = np.random.default_rng(0).uniform(size=(4, 8)) < 0.6
+    alike[list(true), list(true.values())] = True
+    found = consistent_assignments(ours, theirs, alike)
+    assert found and all(alike[indices(one)].all() for one in found)
+    assert any(dict(zip(one.ours, one.theirs, strict=True)) == true for one in found)
+    alike[0, true[0]] = False
+    without = consistent_assignments(ours, theirs, alike)
+    assert not any((0, true[0]) in zip(one.ours, one.theirs, strict=True) for one in without)

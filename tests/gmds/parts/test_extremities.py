@@ -13,7 +13,15 @@ from hypothesis import strategies as st
 
 from geodesics import Mesh
 from geodesics.arrays import Floats
-from gmds.parts.extremities import APART, MOST, RINGS, inner_extremities, near_boundary, persistent_maxima
+from gmds.parts.extremities import (
+    APART,
+    MOST,
+    RINGS,
+    inner_extremities,
+    near_boundary,
+    persistent_maxima,
+    with_interior,
+)
 from gmds.shapes import quadruped
 from gmds.surface.measured import measure
 
@@ -127,3 +135,16 @@ def test_a_cut_leaves_extremities_that_are_far_from_it(animal: Mesh, least: floa
     gap = np.linalg.norm(left[:, None] - after, axis=2)
     assert gap.min(axis=1).max() < 0.15
     assert not near_boundary(part)[found].any()
+
+
+def test_points_inside_are_apart_from_extremities_and_each_other(animal: Mesh) -> None:
+    surface = measure(cut(animal, animal.vertices[:, 0] > -0.1)[0])
+    tips = inner_extremities(surface)
+    for count in (0, 3, 30):
+        anchors, ends = with_interior(surface, count)
+        assert np.array_equal(anchors.vertices[ends], tips.vertices) and ends.sum() == len(tips.vertices)
+        assert len(anchors.vertices) == len(tips.vertices) + count == len(set(anchors.vertices.tolist()))
+        assert not near_boundary(surface.mesh)[anchors.vertices].any()
+        assert np.allclose(anchors.distances[np.arange(len(ends)), anchors.vertices], 0)
+    apart = anchors.distances[:, anchors.vertices].min(axis=0, where=~np.eye(len(ends), dtype=bool), initial=9)
+    assert apart.min() > 0.05

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from cut_shapes import half_animal
 from generated_shapes import subdivided
 from pages import HOSTILE, Visit, browser, page_data
 
@@ -126,7 +127,7 @@ def test_pointing_lights_up_the_true_partner(answer: Correspondence, page: Any, 
     vertices = data["surfaces"][side]["vertices"].reshape(-1, 3)
     others = data["surfaces"][1 - side]["vertices"].reshape(-1, 3)
     images = (answer if side == 0 else answer.inverse()).points
-    found = (answer if side == 0 else answer.inverse()).valid
+    found = answer.valid if side == 0 else answer.covered
     seen, faces = on_screen(page, side, vertices), data["surfaces"][side]["faces"].reshape(-1, 3)
     left, top, width, height = camera_of(page, side)["box"]
     hits = 0
@@ -254,6 +255,16 @@ def test_a_narrow_window_shows_one_surface_under_the_other(running: Any, file: P
     first, second = (page.locator(f"#panel-{side}").bounding_box() for side in (0, 1))
     assert second["y"] >= first["y"] + first["height"]
     assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+
+def test_what_has_no_counterpart_on_the_target_is_grey(running: Any, tmp_path: Path) -> None:
+    half = half_animal()
+    answer = Correspondence.from_points(half.part, half.true)
+    write_report(tmp_path / "half.html", answer)
+    page = Visit(running, tmp_path / "half.html").page
+    shown = np.array(page.evaluate("Array.from(gmdsPage.colours(1))")).reshape(-1, 3)
+    grey = (shown == page_data(tmp_path / "half.html")["missing"]).all(axis=1)
+    assert np.array_equal(grey, ~answer.covered) and 0.3 < grey.mean() < 0.6
 
 
 def test_large_surfaces_are_drawn_as_copies_and_answer_at_once(running: Any, tmp_path: Path) -> None:
