@@ -11,7 +11,6 @@ results/parts.csv, where what was measured at this version of the code is not me
 from __future__ import annotations
 
 import argparse
-import csv
 import json
 import multiprocessing
 import os
@@ -32,6 +31,7 @@ from geodesics import Mesh, SurfacePoints, read_mesh
 from geodesics.arrays import Integers
 from gmds.benchmarking.run import turned
 from gmds.evaluation import geodesic_error, protocol_subset
+from gmds.files.table import read_table, write_table
 from gmds.shapes import quadruped
 
 DEVELOPMENT = ("003", "008", "013", "023", "H_018", "9_dog", "9_lion", "0_cow", "24_cow")
@@ -109,8 +109,7 @@ def read_rows(path: Path, version: str) -> dict[str, dict[str, str]]:
     """The rows of this version of the code, by pair."""
     if not path.is_file():
         return {}
-    with path.open(newline="", encoding="utf-8") as stream:
-        return {line["pair"]: line for line in csv.DictReader(stream) if line["version"] == version}
+    return {line["pair"]: line for line in read_table(path) if line["version"] == version}
 
 
 def run(
@@ -130,10 +129,8 @@ def run(
 
 def write_rows(path: Path, rows: Mapping[str, Mapping[str, Any]]) -> None:
     """All rows, ordered by group and pair."""
-    with path.open("w", newline="", encoding="utf-8") as stream:
-        writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(sorted(rows.values(), key=lambda one: (one["group"], one["pair"])))
+    ordered = sorted(rows.values(), key=lambda one: (one["group"], one["pair"]))
+    write_table(path, COLUMNS, [[one[column] for column in COLUMNS] for one in ordered])
 
 
 NAMES = ["group", "pairs", "error x100", "median", "worst", f"above {FAILED}", "IoU", "precision", "recall"]

@@ -35,7 +35,6 @@ LEAST_CURVATURE = 0.6
 # Length of the boundary in root areas, above which something may be missing: the wrist of a person is 0.1 around.
 # What is shorter is an eye, or a hole of a scan.
 LEAST_BOUNDARY = 0.1
-FIT_OF_A_REGION = 1.0  # of log-likelihood, which a region that may be chosen gains in any case; set by hand
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,8 +50,8 @@ class PartAnswer:
         return self.candidates[0].neg_log_likelihood
 
     def explains(self, whole: Sequence[Proposal]) -> bool:
-        """Whether the maps of one whole to the other are less likely by far: a region can be chosen to fit."""
-        return self.neg_log_likelihood < min(one.neg_log_likelihood for one in whole) - FIT_OF_A_REGION
+        """Whether the maps of one whole to the other are less likely."""
+        return self.neg_log_likelihood < min(one.neg_log_likelihood for one in whole)
 
     def correspondence(self, meta: Mapping[str, Any]) -> Correspondence:
         """The answer."""

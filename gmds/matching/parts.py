@@ -83,10 +83,10 @@ def in_region(
     """The map of a part that sends vertices to about `images` (n,) on the target, and the region that it covers.
 
     The target is cut down to what is within `margin` spacings of the image, and the part is matched with that. Raises
-    `TooFewVertices` (E113) when the region shrinks to nothing.
+    `MeshError` when the region shrinks to nothing (E104, E113).
     """
     region = Region.of(target, near_image(source, target, images.positions, margin))
-    pair = SurfacePair(source, region.surface)
+    pair = SurfacePair(source, region.surface, None, source.reflected != target.reflected)
     places = region.surface.mesh.vertices[images.nearest_vertices()[pair.simplified[0].origin]]
     return PartCandidate(make_candidate(pair, Proposal.of(pair, places), loss, count), region)
 

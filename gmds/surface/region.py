@@ -25,7 +25,7 @@ class Region:
 
     @classmethod
     def of(cls, whole: Surface, vertices: Bools) -> Region:
-        """The faces of which all corners are among the `vertices` (n,). Raises `TooFewVertices` (E113)."""
+        """The faces of which all corners are among the `vertices` (n,). Raises `MeshError` (E104, E113)."""
         faces = whole.face_index[vertices[whole.mesh.faces].all(axis=1)]
         part = Mesh(whole.original.vertices, whole.original.faces[faces])
         return cls(whole, measure(part, reflected=whole.reflected), faces)
