@@ -16,7 +16,13 @@ if TYPE_CHECKING:
 
 METRICS = ("embedded", "scale-invariant", "min-curvature", "equi-affine", "affine")
 DISTANCES = ("biharmonic", "commute-time", "diffusion", "geodesic")
-LOSSES = ("least-squares", "huber", "power", "minimax")
+LOSS_CLASSES = {  # in `gmds.mds.losses`, which is imported when one is chosen
+    "least-squares": "LeastSquares",
+    "huber": "Huber",
+    "power": "Power",
+    "minimax": "Minimax",
+}
+LOSSES = tuple(LOSS_CLASSES)
 PARTS = ("auto", "neither", "source", "target")  # as `match` has them: importing them costs a second
 
 metric_option = click.option("--metric", type=click.Choice(METRICS), help="Metric in which distances are measured.")
@@ -71,7 +77,6 @@ def chosen_loss(name: str | None) -> Any:
     """The loss a name stands for; None, the default of match, when no name is given."""
     if name is None:
         return None
-    import gmds
+    from gmds.mds import losses
 
-    losses = {"least-squares": gmds.LeastSquares, "huber": gmds.Huber, "power": gmds.Power, "minimax": gmds.Minimax}
-    return losses[name]()
+    return getattr(losses, LOSS_CLASSES[name])()

@@ -21,7 +21,10 @@ RECIPE = re.compile(r"^## Adding an? ([^\n]+)\n(.*?)(?=^## )", re.MULTILINE | re
 RECIPES = dict(RECIPE.findall((ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")))
 TESTS = {  # of pytest, and words that choose among them what is new
     "metric": ("tests/geodesics/test_metrics.py", "squared_mean_curvature"),
-    "loss": ("tests/gmds/mds/test_losses.py tests/gmds/mds/test_solver.py", "LogCosh"),
+    "loss": (
+        "tests/gmds/mds/test_losses.py tests/gmds/mds/test_solver.py tests/gmds/cli/test_settings.py",
+        "LogCosh or log-cosh",
+    ),
     "start": ("tests/gmds/initialization/test_initialization.py", "principal_axes"),
     "landmark format": ("tests/gmds/landmarks/test_landmark_formats.py", "lmk or names_and_numbers"),
     "command": ("tests/gmds/cli/test_cli_help.py", "area or section"),

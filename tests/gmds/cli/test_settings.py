@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 import gmds
 from geodesics import Mesh, write_mesh
 from gmds.cli import main
-from gmds.cli.choices import DISTANCES, LOSSES, METRICS, PARTS
+from gmds.cli.choices import DISTANCES, LOSS_CLASSES, LOSSES, METRICS, PARTS, chosen_loss
 from gmds.maps.npz_format import read_meta
 from gmds.matching.part_answers import PARTS as PARTS_OF_MATCH
 
@@ -91,6 +91,12 @@ def test_everything_is_told_set_or_not() -> None:
     said = tomllib.loads(text)
     assert said["matching"] == {"orientation": "preserve", "parts": "auto", "loss": "least-squares", "seed": 0}
     assert said["match"]["output"] == "map.npz"
+
+
+@pytest.mark.parametrize("name", LOSSES)
+def test_every_loss_can_be_chosen(name: str) -> None:
+    assert type(chosen_loss(name)).__name__ == LOSS_CLASSES[name]
+    assert f'loss = "{name}"' in dumped("match", "--loss", name)
 
 
 @given(
