@@ -121,11 +121,11 @@ def part_margin(candidates: Sequence[PartCandidate]) -> float:
     """How much likelier the first is than any quite different one: the difference of log-likelihood."""
     best = candidates[0]
     others = [
-        one.neg_log_likelihood
+        one.rank
         for one in candidates[1:]
         if np.linalg.norm(one.images.positions - best.images.positions, axis=1).mean() > ANOTHER_MAP
     ]
-    return min(others, default=np.inf) - best.neg_log_likelihood
+    return min(others, default=np.inf) - best.rank
 
 
 def _status(best: PartCandidate, margin: float) -> MatchStatus:

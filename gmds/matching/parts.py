@@ -8,12 +8,14 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from geodesics import MeshError, SurfacePoints
 from geodesics.arrays import Bools, Floats
 from geodesics.closest import closest_on_triangles
 from geodesics.threads import side_by_side
-from gmds.matching.candidates import MapCandidate, make_candidate
+from gmds.matching.candidates import MapCandidate, make_candidate, registered
+from gmds.matching.evidence import evidence
 from gmds.matching.pair import SurfacePair
 from gmds.matching.polishing import polished
 from gmds.matching.proposals import Proposal
@@ -27,7 +29,7 @@ FINALISTS = 3  # rough maps for which a region is sought
 # small where the map still slides, and what is cut off once is lost. 2, 1.5, 1, 0.75 lost a third of the pairs of the
 # development half, 2, 1.5, 1.5 none.
 MARGINS = (2.0, 1.5, 1.5)
-SHORTFALL = 1.0  # of log-likelihood from the best, beyond which a map is not followed into the next round
+SHORTFALL = 1.5  # of log-likelihood from the best, beyond which a map is not followed into the next round
 COVERED = 0.75  # spacings from the image within which the whole counts as covered in the end
 
 
@@ -45,8 +47,13 @@ class PartCandidate:
 
     @property
     def neg_log_likelihood(self) -> float:
-        """That of the map between the part and the region."""
+        """That of the map between the simplified part and the simplified region, as for maps of a whole to a whole."""
         return self.candidate.evidence.neg_log_likelihood
+
+    @property
+    def rank(self) -> float:
+        """Among maps of one part, all of it has a say as well: in its own region nothing is missing."""
+        return self.neg_log_likelihood + self.candidate.evidence.whole.neg_log_likelihood
 
 
 def part_candidates(
@@ -73,8 +80,8 @@ def part_candidates(
 
 def _likely(candidates: Sequence[PartCandidate]) -> list[PartCandidate]:
     """The likeliest first, without those that fall short of it by much."""
-    ranked = sorted(candidates, key=lambda one: one.neg_log_likelihood)
-    return [one for one in ranked if one.neg_log_likelihood < ranked[0].neg_log_likelihood + SHORTFALL]
+    ranked = sorted(candidates, key=lambda one: one.rank)
+    return [one for one in ranked if one.rank < ranked[0].rank + SHORTFALL]
 
 
 def in_region(
@@ -88,7 +95,14 @@ def in_region(
     region = Region.of(target, near_image(source, target, images.positions, margin))
     pair = SurfacePair(source, region.surface, None, source.reflected != target.reflected)
     places = region.surface.mesh.vertices[images.nearest_vertices()[pair.simplified[0].origin]]
-    return PartCandidate(make_candidate(pair, Proposal.of(pair, places), loss, count), region)
+    candidate = make_candidate(pair, Proposal.of(pair, places), loss, count)
+    vertices, usable = region.surface.mesh.vertices, pair.full[1].usable
+    near = usable[cKDTree(vertices[usable]).query(vertices[images.nearest_vertices()])[1]]
+    direct = registered(pair, SurfacePoints.at_vertices(region.surface.mesh, near))
+    if direct.residuals.cost < candidate.deformation.residuals.cost:  # holes of the part may mislead eigenfunctions
+        weighed = evidence(pair, candidate.views, direct.points, candidate.evidence.both_simplified, direct.residuals)
+        candidate = replace(candidate, points=direct.points, deformation=direct, evidence=weighed)
+    return PartCandidate(candidate, region)
 
 
 def _in_region_or_not(*arguments: Any) -> PartCandidate | None:

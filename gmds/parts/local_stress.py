@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from geodesics import GeodesicDistance, SurfacePoints, embedded
 from geodesics.arrays import Floats, Integers
 from geodesics.caching import memoized
-from gmds.parts.extremities import distances_across, finite
+from gmds.parts.extremities import finite
 from gmds.registration.deformable import DeformableMesh
 
 ANCHORS = 120  # farthest points whose images are believed in turn
@@ -45,7 +46,9 @@ class LocalStress:
 def mutual_distances(surface: DeformableMesh) -> Floats:
     """Geodesic distances between all vertices (n, n) of a simplified mesh; 0 from vertices on no face."""
     mesh, distances = surface.mesh, np.zeros((surface.mesh.n_vertices,) * 2)
-    distances[surface.usable] = finite(distances_across(mesh)(surface.usable))
+    distances[surface.usable] = finite(
+        GeodesicDistance(embedded(mesh)).field(SurfacePoints.at_vertices(mesh, surface.usable))
+    )
     return distances
 
 
