@@ -15,6 +15,8 @@ from geodesics.points import SurfacePoints
 class MatchStatus(Enum):
     """How far a map can be trusted, best first; the value is a sentence for people.
 
+    What decides which one a match gets, with its thresholds, is in `gmds/matching/result.py`.
+
     See Also
     --------
     Status : How a solver ended.

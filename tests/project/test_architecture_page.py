@@ -65,6 +65,7 @@ def defined(body: list[ast.stmt]) -> dict[str, ast.stmt]:
         ("the energy of a registration", "AsSimilarAsPossible"),
         (".fcsv", "parse_fcsv"),
         ("what decides `status`", "_status"),
+        ("how a part is looked for", "part_maps"),
     ],
 )
 def test_what_is_often_looked_for_has_a_row(wanted: str, name: str) -> None:
