@@ -13,6 +13,7 @@ from gmds.landmarks.files.reading import WHOLE, is_number, landmark_text
 from gmds.landmarks.soft import SoftLandmarks
 
 WIDTHS = (2, 6, 8)  # entries of both points
+ONE_SURFACE = "landmarks of one surface alone need a second file, for the other surface: --landmarks A --landmarks B"
 FORMS = "two vertex numbers, six coordinates, or a face and three weights twice, and perhaps a tolerance"
 
 
@@ -31,10 +32,13 @@ def read_landmarks(path: Path) -> Any:
     rows = [(number, words) for number, words in rows if words]
     if not rows:
         raise BadLandmarkFile(f"{path} holds no landmarks; write {FORMS} a line")
-    entries = len(rows[0][1])
+    first, entries = rows[0][0], len(rows[0][1])
     soft = entries % 2
+    for word in rows[0][1]:
+        if not is_number(word) and any(map(str.isalpha, word)):  # a header, or a name
+            raise BadLandmarkFile(f"{path}, line {first}: {word[:40]!r} is not a number; write {FORMS}; {ONE_SURFACE}")
     if entries - soft not in WIDTHS:
-        raise BadLandmarkFile(f"{path}, line {rows[0][0]}: {entries} entries; write {FORMS}")
+        raise BadLandmarkFile(f"{path}, line {first}: {entries} entries; write {FORMS}; {ONE_SURFACE}")
     table = np.array([_numbers(path, number, words, entries) for number, words in rows], dtype=np.float64)
     halves = np.split(table[:, : entries - soft], 2, axis=1)
     pairs = table[:, :2].astype(np.int64) if entries - soft == 2 else tuple(halves)

@@ -2,7 +2,7 @@
 
 | code | says |
 |---|---|
-| W205 | the surfaces differ in topology: no continuous map takes all of one to all of the other |
+| W205 | the surfaces differ in topology: no continuous map takes all of one to all of the other (not said of parts) |
 | W207 | the status is AMBIGUOUS: another map, for instance the mirrored one, does nearly as well |
 | W301 | landmarks that were given off the surface were moved to it, and how far |
 | W302 | soft landmarks that the map misses by far |
@@ -16,11 +16,14 @@ from geodesics.topology.invariants import invariants
 from gmds.maps.point_map import MatchStatus
 
 
-def match_notes(source: Mesh, target: Mesh, status: MatchStatus) -> list[Note]:
-    """The notes on a match of two surfaces, apart from those on its landmarks."""
+def match_notes(source: Mesh, target: Mesh, status: MatchStatus, *, of_a_part: bool = False) -> list[Note]:
+    """The notes on a match of two surfaces, apart from those on its landmarks.
+
+    `of_a_part`: whether one was taken for a part of the other, which has another topology as a rule.
+    """
     notes = []
     ours, theirs = invariants(source), invariants(target)
-    if str(ours) != str(theirs):
+    if not of_a_part and str(ours) != str(theirs):
         notes.append(Note("W205", "info", f"different topology: the source has {ours}; the target has {theirs}"))
     if status is MatchStatus.AMBIGUOUS:
         notes.append(Note("W207", "warning", status.value))

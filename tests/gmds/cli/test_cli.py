@@ -322,6 +322,9 @@ def test_landmark_files(tmp_path: Path) -> None:
         ("", "no landmarks"),
         ("# nothing\n", "no landmarks"),
         ("1 2 3 4\n", "line 1: 4 entries"),
+        ("name,vertex\nnose,3\n", "line 1: 'name' is not a number.*one surface alone.*--landmarks A --landmarks B"),
+        ("nose 3\n", "line 1: 'nose' is not a number.*one surface alone"),
+        ("0 0 1 2\n", "4 entries.*one surface alone"),
         ("1 2 x\n", "'x' is not a number"),
         ("0.5 1 0 0 3 1 0 0\n", "'0.5' is not a whole number"),
         ("1 2\n\n3\n", "line 3: 1 entries"),
@@ -336,6 +339,11 @@ def test_bad_landmark_files_name_the_line(tmp_path: Path, text: str, message: st
     (tmp_path / "marks.txt").write_text(text)
     with pytest.raises(BadLandmarkFile, match=message):
         read_landmarks(tmp_path / "marks.txt")
+
+
+def test_no_candidates_are_said_to_be_none(stand_in: None, pair: tuple[Path, Path], tmp_path: Path) -> None:
+    result = run("match", *pair, "-o", tmp_path / "map.npz")
+    assert [line.split() for line in result.stdout.splitlines()][-1] == ["candidates:", "none"]
 
 
 def test_landmark_files_are_text(tmp_path: Path) -> None:

@@ -54,6 +54,7 @@ def test_surfaces_of_different_topology_are_named() -> None:
         "W205: different topology: the source has 1 component, 0 boundary loops, genus 0; "
         "the target has 1 component, 0 boundary loops, genus 1"
     )
+    assert match_notes(ball, ring, MatchStatus.GOOD, of_a_part=True) == []
 
 
 def test_a_match_carries_its_notes() -> None:

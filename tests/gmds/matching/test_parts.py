@@ -51,6 +51,7 @@ def test_half_an_animal_is_found_on_a_whole_one_in_another_pose(onto_whole: Corr
     assert onto_whole.meta["evidence"]["part"] == "source" and onto_whole.status is MatchStatus.GOOD
     assert error(onto_whole) < 2.5
     assert onto_whole.valid.all()
+    assert not [line for line in onto_whole.meta["notes"] if line.startswith("W205")]  # a part has another topology
     assert iou(onto_whole.covered, on_the_half()) > 0.9
     half = half_animal()
     assert onto_whole.overlap[1] == pytest.approx(half.part.area / half.whole.area, abs=0.05)
