@@ -15,7 +15,7 @@ from geodesics.topology.components import boundary_vertices
 from geodesics.topology.edges import edges
 from gmds.surface.measured import Surface
 
-# Chosen on the PFAUST-M and -H pairs of the development half (benchmarks/parts): see the comments on each.
+# Chosen on the development half of the PFAUST pairs (benchmarks/results/notes.md, "Parts"), but for what is said.
 SAMPLES = 80  # between which distances are averaged: twice as many move no extremity
 PERSISTENCE = 0.06  # of the range of the mean distance, by which a maximum must stand out: fingers do, wrinkles do not
 RINGS = 2  # of faces around the boundary in which a maximum is an effect of the cut

@@ -20,7 +20,7 @@ from gmds.registration.register import Registered, register
 from gmds.registration.settings import COARSE, TO_IMAGES, RegistrationSettings
 from gmds.surface.measured import Surface
 
-# Chosen on the development half of the PFAUST pairs (benchmarks/parts).
+# Chosen on the development half of the PFAUST pairs (benchmarks/results/notes.md, "Parts").
 REGISTERED = 50  # rough maps, those of least residual, that are deformed onto the whole
 DOUBTFUL = -1.35  # a likelihood above which points inside are assigned as well: right maps have -1.4 to -2.4
 INTERIOR = (3, 30)  # of them, on the part and on the whole
