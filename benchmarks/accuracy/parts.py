@@ -100,7 +100,7 @@ def judged_row(names: Mapping[str, str], meshes: tuple[Mesh, Mesh], known: Known
         "precision": f"{kept / max(kept + wrong, 1):.4f}",
         "recall": f"{kept / max(len(there), 1):.4f}",
         "cpu_seconds": f"{seconds:.2f}",
-        "part": evidence.get("part", "-"),
+        "part": answer.meta.get("part", "-"),
         "margin": f"{evidence.get('margin', 0):.2f}",
     }
 

@@ -35,6 +35,7 @@ LEAST_CURVATURE = 0.6
 # Length of the boundary in root areas, above which something may be missing: the wrist of a person is 0.1 around.
 # What is shorter is an eye, or a hole of a scan.
 LEAST_BOUNDARY = 0.1
+FIT_OF_A_REGION = 0.3  # of log-likelihood: a surface is no part of its own copy; set by hand
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,8 +51,8 @@ class PartAnswer:
         return self.candidates[0].neg_log_likelihood
 
     def explains(self, whole: Sequence[Proposal]) -> bool:
-        """Whether the maps of one whole to the other are less likely."""
-        return self.neg_log_likelihood < min(one.neg_log_likelihood for one in whole)
+        """Whether the maps of one whole to the other are less likely, by more than choosing a region gains."""
+        return self.neg_log_likelihood < min(one.neg_log_likelihood for one in whole) - FIT_OF_A_REGION
 
     def correspondence(self, meta: Mapping[str, Any]) -> Correspondence:
         """The answer."""
@@ -96,12 +97,18 @@ def part_answer(candidates: Sequence[PartCandidate], part: Part, meta: Mapping[s
     """
     best, margin = candidates[0], part_margin(candidates)
     forward = _forward(best, _status(best, margin), meta)
-    evidence = {**best.candidate.evidence.as_meta(), "margin": min(margin, MARGIN_OF_THE_ONLY), "part": part}
+    evidence = {**best.candidate.evidence.as_meta(), "margin": min(margin, MARGIN_OF_THE_ONLY)}
     others = [
         Candidate(_points(one, part), one.candidate.evidence.stress, one.candidate.evidence.orientation)
         for one in candidates[1:]
     ]
-    described = {**meta, "evidence": evidence, "solver": best.candidate.solution.status.name, "versions": versions()}
+    described = {
+        **meta,
+        "part": part,
+        "evidence": evidence,
+        "solver": best.candidate.solution.status.name,
+        "versions": versions(),
+    }
     if part == "source":
         return Correspondence(
             forward.source, forward.target, forward.points, forward.valid, forward.distortion, forward.status,

@@ -159,7 +159,7 @@ def match(  # noqa: PLR0913, PLR0915 - the signature is a promise
     else:
         answer = min(of_parts, key=lambda one: one.neg_log_likelihood).correspondence(meta)
     answer = answer if copies is None else copies.prolonged(answer)
-    of_a_part = "part" in answer.meta["evidence"]
+    of_a_part = "part" in answer.meta
     notes = match_notes(measured.original, facing.original, answer.status, of_a_part=of_a_part)
     if placed is not None:
         answer, missed = placed.applied(answer)

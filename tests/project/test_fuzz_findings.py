@@ -35,7 +35,8 @@ def a_map(path: Path, meta: Any) -> Path:
 
 def test_a_map_holds_settings(tmp_path: Path) -> None:
     path = a_map(tmp_path / "a.npz", {"parameters": MADE, "versions": {"gmds": __version__}})
-    assert read_settings(path)["matching"] == {"samples": 12, "orientation": "any", "seed": 1, "loss": "least-squares"}
+    held = {"samples": 12, "orientation": "any", "parts": "neither", "seed": 1, "loss": "least-squares"}
+    assert read_settings(path)["matching"] == held, "a map of before there were parts has none"
 
 
 @pytest.mark.parametrize("name", ["n_samples", "orientation", "rng", "loss", "distance"])
