@@ -6,6 +6,7 @@ import numpy as np
 
 from geodesics import embedded, lumped_mass
 from geodesics.arrays import Bools
+from geodesics.intrinsic import areas, squared_lengths
 from geodesics.mesh import Mesh
 from gmds.maps.images import COVERED, preimage
 from gmds.maps.point_map import PointMap
@@ -27,8 +28,12 @@ def covered(answer: PointMap) -> Bools:
 
 def reach(answer: PointMap) -> float:
     """How far from the nearest image, over sqrt(target area), a vertex of the target is still covered by it."""
-    used = len(np.unique(answer.target.faces))
-    return float(COVERED / np.sqrt(min(used, int(answer.valid.sum()) or 1)))
+    faces = answer.source.faces[answer.valid[answer.source.faces].all(axis=1)]
+    image = areas(squared_lengths(answer.points.positions, faces)).sum() / answer.target.area
+    images = min(image, 1.0) / max(
+        len(np.unique(faces)), 1
+    )  # of the target's area: where a map folds, no more than all
+    return float(COVERED * np.sqrt(max(1 / len(np.unique(answer.target.faces)), images)))
 
 
 def covered_of(answer: PointMap) -> Bools:

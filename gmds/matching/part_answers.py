@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -12,7 +12,7 @@ import numpy as np
 from geodesics import Mesh, SurfacePoints
 from geodesics.topology.edges import edges
 from gmds.correspondence import Correspondence
-from gmds.maps.images import COVERED, preimage
+from gmds.maps.images import preimage
 from gmds.maps.point_map import Candidate, MatchStatus
 from gmds.matching.pair import SurfacePair
 from gmds.matching.parts import PartCandidate, part_candidates
@@ -50,13 +50,22 @@ class PartAnswer:
         """That of the likeliest map."""
         return self.candidates[0].neg_log_likelihood
 
-    def explains(self, whole: Sequence[Proposal]) -> bool:
-        """Whether the maps of one whole to the other are less likely, by more than choosing a region gains."""
-        return self.neg_log_likelihood < min(one.neg_log_likelihood for one in whole) - FIT_OF_A_REGION
-
     def correspondence(self, meta: Mapping[str, Any]) -> Correspondence:
         """The answer."""
         return part_answer(self.candidates, self.part, meta)
+
+
+def likelier_part(found: Sequence[PartAnswer], whole: Sequence[Proposal], parts: Parts) -> PartAnswer | None:
+    """The likeliest of what was found of parts; None where a map of one whole to the other is as likely.
+
+    A region can be chosen to fit, so a part has to be likelier by `FIT_OF_A_REGION`; where the user said which surface
+    is the part, there is nothing to weigh.
+    """
+    best = min(found, key=lambda one: one.neg_log_likelihood, default=None)
+    if best is None or parts != "auto":
+        return best
+    least = min(one.neg_log_likelihood for one in whole)
+    return best if best.neg_log_likelihood < least - FIT_OF_A_REGION else None
 
 
 def maps_of_parts(pair: SurfacePair, parts: Parts, loss: Loss, count: int, report: Report) -> list[PartAnswer]:
@@ -109,19 +118,8 @@ def part_answer(candidates: Sequence[PartCandidate], part: Part, meta: Mapping[s
         "solver": best.candidate.solution.status.name,
         "versions": versions(),
     }
-    if part == "source":
-        return Correspondence(
-            forward.source, forward.target, forward.points, forward.valid, forward.distortion, forward.status,
-            tuple(others), described,
-        )  # fmt: skip
-    points, gap = preimage(forward, np.arange(forward.target.n_vertices))
-    used = np.bincount(forward.target.faces.ravel(), minlength=forward.target.n_vertices) > 0
-    spacing = 1 / np.sqrt(used.sum())
-    valid = used & (gap < COVERED * spacing)
-    distortion = np.where(np.isfinite(gap), points.interpolate(forward.distortion) + gap, 1.0)
-    return Correspondence(
-        forward.target, forward.source, points, valid, distortion, forward.status, tuple(others), described
-    )
+    answer = forward if part == "source" else replace(forward.inverse(), valid=forward.covered)
+    return replace(answer, candidates=tuple(others), meta=described)
 
 
 def part_margin(candidates: Sequence[PartCandidate]) -> float:

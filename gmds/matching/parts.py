@@ -30,7 +30,6 @@ FINALISTS = 3  # rough maps for which a region is sought
 # development half, 2, 1.5, 1.5 none.
 MARGINS = (2.0, 1.5, 1.5)
 SHORTFALL = 1.5  # of log-likelihood from the best, beyond which a map is not followed into the next round
-COVERED = 0.75  # spacings from the image within which the whole counts as covered in the end
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,12 +14,12 @@ from geodesics.threads import on_one_blas_thread
 from gmds.correspondence import Correspondence
 from gmds.errors import SampleCountError
 from gmds.landmarks.checking import place_landmarks
-from gmds.matching.candidates import MapCandidate, mirrored
+from gmds.matching.candidates import GivenDistances, mirrored
 from gmds.matching.large_surfaces import CoarseCopies
 from gmds.matching.notes import match_notes
 from gmds.matching.pair import SurfacePair
-from gmds.matching.part_answers import PARTS, PartAnswer, Parts, maps_of_parts
-from gmds.matching.proposals import distinct, proposals
+from gmds.matching.part_answers import PARTS, PartAnswer, Parts, likelier_part, maps_of_parts
+from gmds.matching.proposals import Proposal, distinct, proposals
 from gmds.matching.result import correspondence_of
 from gmds.matching.steps import embedded, registered, starts_of, views_of
 from gmds.mds.losses import LeastSquares, Loss
@@ -81,7 +81,8 @@ def match(  # noqa: PLR0913, PLR0915 - the signature is a promise
     parts : {"auto", "neither", "source", "target"}
         Which surface is but a part of what the other is. With "auto" that is asked of a surface with a boundary, unless
         landmarks or a distance are given: its vertices then all have a counterpart, and of the other surface those in
-        the region that it covers (`valid`, `covered`).
+        the region that it covers (`valid`, `covered`). Where a part is asked for by name, landmarks have no say in
+        where it is looked for, and those at vertices are met in the end; a distance of your own is refused.
     rng : int
         Seeds whatever is random; in the method as it stands nothing is.
     progress : callable, optional
@@ -118,6 +119,8 @@ def match(  # noqa: PLR0913, PLR0915 - the signature is a promise
         raise ValueError(f"orientation must be 'preserve', 'reverse' or 'any', not {orientation!r}")
     if parts not in PARTS:
         raise ValueError(f"parts must be one of {', '.join(map(repr, PARTS))}, not {parts!r}")
+    if parts in ("source", "target") and distance is not None:
+        raise ValueError(f"parts={parts!r} is looked for without a distance of your own; leave one of them out")
     measured, facing = (s if isinstance(s, Surface) else measure(Mesh.from_object(s)) for s in (source, target))
     loss = LeastSquares() if loss is None else loss
     placed = None if landmarks is None else place_landmarks(landmarks, measured.original, facing.original)
@@ -131,20 +134,16 @@ def match(  # noqa: PLR0913, PLR0915 - the signature is a promise
     if copies is not None:
         constraints = None if constraints is None else copies.landmarks(constraints)
         measured, facing = copies.copies
-    candidates: list[MapCandidate] = []
+    proposed: list[tuple[SurfacePair, list[Proposal], GivenDistances | None]] = []
     of_parts: list[PartAnswer] = []
-    asked = parts if (distance is None and landmarks is None) or parts != "auto" else "neither"
     for reflected in REFLECTED[orientation]:
         pair = SurfacePair(measured, facing.reflection if reflected else facing, constraints, reflected)
         views, given = views_of(pair, distance)
-        proposed = proposals(pair, views, starts_of(pair), lambda share: report("proposing", 0.2 + 0.3 * share))
-        likely = distinct(proposed, pair.simplified[0], EMBEDDED, SHORTFALL)
-        of_parts += maps_of_parts(pair, asked, loss, count, report)
-        if not any(one.explains(likely) for one in of_parts):
-            candidates += embedded(pair, likely, loss, count, given, report)
-    candidates.sort(key=lambda candidate: candidate.evidence.neg_log_likelihood)
-    if distance is None and candidates:
-        candidates = registered(candidates, report)
+        maps = proposals(pair, views, starts_of(pair), lambda share: report("proposing", 0.2 + 0.3 * share))
+        proposed.append((pair, distinct(maps, pair.simplified[0], EMBEDDED, SHORTFALL), given))
+        if distance is None and (landmarks is None or parts != "auto"):
+            of_parts += maps_of_parts(pair, parts, loss, count, report)
+    part = likelier_part(of_parts, [one for _, maps, _ in proposed for one in maps], parts)
 
     settings = {
         "n_samples": min(count, len(measured.regular.usable)),
@@ -153,11 +152,13 @@ def match(  # noqa: PLR0913, PLR0915 - the signature is a promise
         "parts": parts,
         "rng": rng,
     }
-    meta = {"parameters": settings}
-    if candidates:
-        answer = correspondence_of([*candidates, *mirrored(candidates[0])], meta)
+    if part is not None:
+        answer = part.correspondence({"parameters": settings})
     else:
-        answer = min(of_parts, key=lambda one: one.neg_log_likelihood).correspondence(meta)
+        candidates = [one for pair, maps, given in proposed for one in embedded(pair, maps, loss, count, given, report)]
+        candidates.sort(key=lambda candidate: candidate.evidence.neg_log_likelihood)
+        candidates = registered(candidates, report) if distance is None else candidates
+        answer = correspondence_of([*candidates, *mirrored(candidates[0])], {"parameters": settings})
     answer = answer if copies is None else copies.prolonged(answer)
     of_a_part = "part" in answer.meta
     notes = match_notes(measured.original, facing.original, answer.status, of_a_part=of_a_part)

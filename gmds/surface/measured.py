@@ -144,6 +144,11 @@ def view_of(distance: object, surface: Surface) -> View:
 def on_original(surface: Surface, points: SurfacePoints) -> SurfacePoints:
     """Points of a measured surface as points of the mesh that was measured."""
     face, weight = surface.face_index[points.face], points.barycentric
-    corners, turned = surface.original.faces[face], surface.mesh.faces[points.face]
-    swapped = (corners != turned).any(axis=1, keepdims=True)  # a turned face keeps its first corner
-    return SurfacePoints(surface.original, face, np.where(swapped, weight[:, [0, 2, 1]], weight))
+    weight = turned_back(weight, surface.mesh.faces[points.face], surface.original.faces[face])
+    return SurfacePoints(surface.original, face, weight)
+
+
+def turned_back(weights: Floats, corners: Integers, others: Integers) -> Floats:
+    """Weights (p, 3) of corners (p, 3) as weights of the same corners in another order; the first stays the first."""
+    swapped = (corners != others).any(axis=1, keepdims=True)
+    return np.where(swapped, weights[:, [0, 2, 1]], weights)

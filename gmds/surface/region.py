@@ -9,7 +9,7 @@ import numpy as np
 from geodesics import Mesh, SurfacePoints
 from geodesics.arrays import Bools, Integers
 from geodesics.caching import cached_property
-from gmds.surface.measured import Surface, measure
+from gmds.surface.measured import Surface, measure, turned_back
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,11 +32,9 @@ class Region:
 
     def on_measured(self, points: SurfacePoints) -> SurfacePoints:
         """Points of the measured region as points of the measured whole."""
-        face, weights = points.face, points.barycentric
-        corners = self.whole.mesh.faces[self._row[face]]
-        turned = self.surface.mesh.faces[face]
-        swapped = (corners != turned).any(axis=1, keepdims=True)  # a turned face keeps its first corner
-        return SurfacePoints(self.whole.mesh, self._row[face], np.where(swapped, weights[:, [0, 2, 1]], weights))
+        face = self._row[points.face]
+        weights = turned_back(points.barycentric, self.surface.mesh.faces[points.face], self.whole.mesh.faces[face])
+        return SurfacePoints(self.whole.mesh, face, weights)
 
     @cached_property
     def _row(self) -> Integers:

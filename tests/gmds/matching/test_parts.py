@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 from cut_shapes import animal_on_half, half_animal
@@ -12,7 +15,7 @@ import gmds
 from geodesics import Mesh, SurfacePoints
 from gmds import Correspondence, MatchStatus
 from gmds.evaluation import geodesic_error
-from gmds.matching.part_answers import PARTS, boundary_length
+from gmds.matching.part_answers import PARTS, boundary_length, likelier_part
 from gmds.matching.parts import near_image
 from gmds.surface.measured import measure
 
@@ -138,3 +141,26 @@ def test_the_boundary_is_as_long_as_it_is(scale: float) -> None:
     ring = cylinder(64, 4, scale, scale)
     assert boundary_length(ring) == pytest.approx(4 * np.pi * scale, rel=1e-3)
     assert boundary_length(bumpy_sphere(2)) == 0
+
+
+def test_overruling_overrules() -> None:
+    """Also where a map of one whole to the other is as likely: of a closed surface and its copy."""
+    mesh = bumpy_sphere(2)
+    assert "part" not in gmds.match(mesh, mesh).meta
+    with pytest.raises(ValueError, match="without a distance of your own"):
+        gmds.match(mesh, mesh, parts="source", distance=lambda one: None)  # type: ignore[arg-type, return-value]
+    half = half_animal()
+    assert gmds.match(half.part, half.whole, parts="source").meta["part"] == "source"
+
+
+def named(likelihood: float) -> Any:
+    return SimpleNamespace(neg_log_likelihood=likelihood)
+
+
+def test_the_likelier_of_part_and_whole_is_taken_whatever_came_first() -> None:
+    unlikely, likely = named(-9.0), named(-13.0)
+    assert likelier_part([unlikely, likely], [named(-10.0), named(-12.0)], "auto") is likely
+    assert likelier_part([likely, unlikely], [named(-13.0)], "auto") is None, "a region can be chosen to fit"
+    assert likelier_part([unlikely], [named(-12.0)], "auto") is None
+    assert likelier_part([unlikely], [named(-12.0)], "source") is unlikely
+    assert likelier_part([], [named(0.0)], "auto") is None
