@@ -30,9 +30,7 @@ def reach(answer: PointMap) -> float:
     """How far from the nearest image, over sqrt(target area), a vertex of the target is still covered by it."""
     faces = answer.source.faces[answer.valid[answer.source.faces].all(axis=1)]
     image = areas(squared_lengths(answer.points.positions, faces)).sum() / answer.target.area
-    images = min(image, 1.0) / max(
-        len(np.unique(faces)), 1
-    )  # of the target's area: where a map folds, no more than all
+    images = min(image, 1.0) / max(len(np.unique(faces)), 1)  # of the target's area, where a map folds no more than all
     return float(COVERED * np.sqrt(max(1 / len(np.unique(answer.target.faces)), images)))
 
 
