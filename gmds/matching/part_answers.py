@@ -17,7 +17,7 @@ from gmds.maps.point_map import Candidate, MatchStatus
 from gmds.matching.pair import SurfacePair
 from gmds.matching.parts import PartCandidate, part_candidates
 from gmds.matching.proposals import Proposal
-from gmds.matching.result import AMBIGUOUS_MARGIN, ANOTHER_MAP, MARGIN_OF_THE_ONLY, distortion_of, original_points
+from gmds.matching.result import AMBIGUOUS_MARGIN, MARGIN_OF_THE_ONLY, distortion_of, margin_of, original_points
 from gmds.matching.steps import Report
 from gmds.mds.losses import Loss
 from gmds.provenance import versions
@@ -104,7 +104,8 @@ def part_answer(candidates: Sequence[PartCandidate], part: Part, meta: Mapping[s
     `candidates` map the part to regions of the whole. Where the part is the target the map is turned round: a vertex of
     the source has a counterpart when it is in the region.
     """
-    best, margin = candidates[0], part_margin(candidates)
+    best = candidates[0]
+    margin = margin_of([one.rank for one in candidates], [one.images.positions for one in candidates])
     forward = _forward(best, _status(best, margin), meta)
     evidence = {**best.candidate.evidence.as_meta(), "margin": min(margin, MARGIN_OF_THE_ONLY)}
     others = [
@@ -120,17 +121,6 @@ def part_answer(candidates: Sequence[PartCandidate], part: Part, meta: Mapping[s
     }
     answer = forward if part == "source" else replace(forward.inverse(), valid=forward.covered)
     return replace(answer, candidates=tuple(others), meta=described)
-
-
-def part_margin(candidates: Sequence[PartCandidate]) -> float:
-    """How much likelier the first is than any quite different one: the difference of log-likelihood."""
-    best = candidates[0]
-    others = [
-        one.rank
-        for one in candidates[1:]
-        if np.linalg.norm(one.images.positions - best.images.positions, axis=1).mean() > ANOTHER_MAP
-    ]
-    return min(others, default=np.inf) - best.rank
 
 
 def _status(best: PartCandidate, margin: float) -> MatchStatus:

@@ -19,7 +19,7 @@ from gmds.matching.large_surfaces import CoarseCopies
 from gmds.matching.notes import match_notes
 from gmds.matching.pair import SurfacePair
 from gmds.matching.part_answers import PARTS, PartAnswer, Parts, likelier_part, maps_of_parts
-from gmds.matching.proposals import Proposal, distinct, proposals
+from gmds.matching.proposals import Proposal, likely_maps, proposals
 from gmds.matching.result import correspondence_of
 from gmds.matching.steps import embedded, registered, starts_of, views_of
 from gmds.mds.losses import LeastSquares, Loss
@@ -30,10 +30,6 @@ from gmds.surface.measured import Surface, measure
 FEWEST_SAMPLES = 3  # fewer leave a surface free to turn
 
 SAMPLES = 300  # of each surface, placed by the solver: with as many it was measured (benchmarks/results/notes.md)
-EMBEDDED = 3  # maps of a pair, at the most, whose samples are placed: each costs 0.8 CPU seconds; set by hand
-# Of log-likelihood from the best: no map that fell short by more was the answer on 15 development pairs, the farthest
-# by 0.05 (benchmarks/results/notes.md, "Speed of a match").
-SHORTFALL = 0.8
 REFLECTED = {"preserve": (False,), "reverse": (True,), "any": (False, True)}
 
 
@@ -140,7 +136,7 @@ def match(  # noqa: PLR0913, PLR0915 - the signature is a promise
         pair = SurfacePair(measured, facing.reflection if reflected else facing, constraints, reflected)
         views, given = views_of(pair, distance)
         maps = proposals(pair, views, starts_of(pair), lambda share: report("proposing", 0.2 + 0.3 * share))
-        proposed.append((pair, distinct(maps, pair.simplified[0], EMBEDDED, SHORTFALL), given))
+        proposed.append((pair, likely_maps(maps, pair.simplified[0].areas), given))
         if distance is None and (landmarks is None or parts != "auto"):
             of_parts += maps_of_parts(pair, parts, loss, count, report)
     part = likelier_part(of_parts, [one for _, maps, _ in proposed for one in maps], parts)

@@ -14,6 +14,7 @@ from geodesics.threads import side_by_side
 from gmds.initialization.shortlist import shortlist
 from gmds.matching.pair import SurfacePair
 from gmds.registration.deformable import DeformableMesh
+from gmds.registration.distinct import distinct
 from gmds.registration.register import Registered, register, returning, settled
 from gmds.registration.residuals import Residuals
 from gmds.registration.settings import COARSE, SIMPLIFIED, TO_IMAGES, RegistrationSettings
@@ -31,6 +32,10 @@ MOST_RETURNED = 12
 # maps are one. The first saves 0.3 CPU seconds (the same file, "Faster by a third"). Both set by hand.
 SAME_BEGINNING = 0.03
 SAME_MAP = 0.05
+EMBEDDED = 3  # maps of a pair, at the most, whose samples are placed: each costs 0.8 CPU seconds; set by hand
+# Of log-likelihood from the best: no map that fell short by more was the answer on 15 development pairs, the farthest
+# by 0.05 (benchmarks/results/notes.md, "Speed of a match").
+SHORTFALL = 0.8
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,20 +133,6 @@ def rough_maps(pair: SurfacePair, views: Sequence[tuple[View, View]], starts: Se
     return straight + turned
 
 
-def distinct(maps: Sequence[Proposal], source: DeformableMesh, count: int, within: float = np.inf) -> list[Proposal]:
-    """The `count` best, best first, leaving out those that nearly repeat a better one.
-
-    Those whose log-likelihood falls short of the best by more than `within` are left out as well.
-    """
-    kept: list[Proposal] = []
-    for proposal in sorted(maps, key=lambda p: p.neg_log_likelihood):
-        likely = not kept or proposal.neg_log_likelihood < kept[0].neg_log_likelihood + within
-        if likely and len(kept) < count and all(_gap(proposal, other, source.areas) > SAME_MAP for other in kept):
-            kept.append(proposal)
-    return kept
-
-
-def _gap(one: Proposal, other: Proposal, areas: Floats) -> float:
-    """Root mean square distance between the images of two maps."""
-    squares = ((one.registered.y - other.registered.y) ** 2).sum(axis=1)
-    return float(np.sqrt(areas @ squares))
+def likely_maps(maps: Sequence[Proposal], areas: Floats) -> list[Proposal]:
+    """The few proposals that deserve more work, the likeliest first, apart from each other."""
+    return distinct(maps, areas, SAME_MAP, count=EMBEDDED, within=SHORTFALL)

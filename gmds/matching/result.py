@@ -115,12 +115,18 @@ def _status(best: MapCandidate, margin: float) -> MatchStatus:
     return MatchStatus.AMBIGUOUS if margin < AMBIGUOUS_MARGIN else MatchStatus.GOOD
 
 
+def margin_of(likelihoods: Sequence[float], images: Sequence[Floats]) -> float:
+    """How much likelier the first map is than any quite different one: the difference of log-likelihood.
+
+    `likelihoods` are negative logarithms; `images` are where each map sends the vertices, (n, 3), in root areas.
+    """
+    others = [
+        value
+        for value, positions in zip(likelihoods[1:], images[1:], strict=True)
+        if np.linalg.norm(positions - images[0], axis=1).mean() > ANOTHER_MAP
+    ]
+    return min(others, default=np.inf) - likelihoods[0]
+
+
 def _margin(placed: Sequence[MapCandidate]) -> float:
-    """How much more likely the best map is than any quite different one: the difference of log-likelihood."""
-    others = [other.evidence.neg_log_likelihood for other in placed[1:] if _gap(placed[0], other) > ANOTHER_MAP]
-    return min(others, default=np.inf) - placed[0].evidence.neg_log_likelihood
-
-
-def _gap(one: MapCandidate, other: MapCandidate) -> float:
-    """Mean distance in space between the images of two maps, over the square root of the target's area."""
-    return float(np.linalg.norm(one.points.positions - other.points.positions, axis=1).mean())
+    return margin_of([one.evidence.neg_log_likelihood for one in placed], [one.points.positions for one in placed])

@@ -16,8 +16,9 @@ from gmds import initialization
 from gmds.matching.candidates import MapCandidate, make_candidate
 from gmds.matching.pair import SurfacePair
 from gmds.matching.polishing import polished
-from gmds.matching.proposals import Proposal, distinct, rough_maps
+from gmds.matching.proposals import SAME_MAP, Proposal, rough_maps
 from gmds.mds.losses import Loss
+from gmds.registration.distinct import distinct
 from gmds.registration.energies import AsSimilarAsPossible
 from gmds.registration.register import Registered, register, settled
 from gmds.registration.residuals import Residuals
@@ -123,7 +124,7 @@ def self_maps(
     for number, pair in enumerate(pairs):
         progress("proposing", 0.05 + 0.25 * number)
         moving = [p for p in proposed(pair) if _moves(p.registered, pair) > _identity_gap(pair)]
-        kinds.append(distinct(moving, pair.simplified[0], MOST_EMBEDDED))
+        kinds.append(distinct(moving, pair.simplified[0].areas, SAME_MAP, count=MOST_EMBEDDED))
     limit = max(min((p.neg_log_likelihood for kind in kinds for p in kind), default=0.0), EXACT_FIT) + SHORTFALL
     chosen = [(pairs[0], p) for i, p in enumerate(kinds[0]) if i < REVERSING_KEPT or p.neg_log_likelihood < limit]
     chosen += [(pairs[1], p) for p in kinds[1] if p.neg_log_likelihood < limit]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +15,7 @@ from gmds.parts.extremities import Anchors, inner_extremities, with_interior
 from gmds.parts.local_stress import LocalStress
 from gmds.parts.trilateration import Trilateration
 from gmds.registration.deformable import DeformableMesh
+from gmds.registration.distinct import distinct
 from gmds.registration.energies import AsRigidAsPossible
 from gmds.registration.register import Registered, register
 from gmds.registration.settings import COARSE, TO_IMAGES, RegistrationSettings
@@ -68,7 +69,7 @@ def part_maps(
     if not found or found[0].neg_log_likelihood > DOUBTFUL:
         (ours, tips), (goals, ends) = with_interior(source, INTERIOR[0]), with_interior(target, INTERIOR[1])
         more = _from_anchors(source, target, meshes, ours, goals, tips[:, None] == ends[None])
-        found = distinct_maps([*found, *more], meshes[0])
+        found = distinct([*found, *more], meshes[0].areas, APART)
     return found
 
 
@@ -89,17 +90,8 @@ def _from_anchors(
     residuals = side_by_side(rows.residual, assigned)
     likely = [assigned[i] for i in np.argsort(residuals, kind="stable")[:REGISTERED]]
     begun = side_by_side(lambda one: _deformed(meshes, rows.images(one)), likely)
-    apart = distinct_maps(begun, meshes[0])[:IMPROVED]
-    return distinct_maps(side_by_side(functools.partial(improved, meshes), apart), meshes[0])
-
-
-def distinct_maps(maps: Sequence[PartMap], source: DeformableMesh) -> list[PartMap]:
-    """The likeliest first, without those that nearly repeat a likelier one."""
-    kept: list[PartMap] = []
-    for one in sorted(maps, key=lambda one: one.neg_log_likelihood):
-        if all(_gap(one, other, source.areas) > APART for other in kept):
-            kept.append(one)
-    return kept
+    apart = distinct(begun, meshes[0].areas, APART, count=IMPROVED)
+    return distinct(side_by_side(functools.partial(improved, meshes), apart), meshes[0].areas, APART)
 
 
 def improved(meshes: tuple[DeformableMesh, DeformableMesh], start: PartMap) -> PartMap:
@@ -128,8 +120,3 @@ def _deformed(meshes: tuple[DeformableMesh, DeformableMesh], images: Integers) -
     local = source.energy(ONTO_WHOLE.energy).local_step(registered.y)
     size = float(np.sqrt(np.einsum("nab,nab->n", local, local) @ source.areas / 3))
     return PartMap(registered, max(size, 1e-6))
-
-
-def _gap(one: PartMap, other: PartMap, areas: Floats) -> float:
-    squares = ((one.registered.y - other.registered.y) ** 2).sum(axis=1)
-    return float(np.sqrt(areas @ squares))

@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 from geodesics import SurfacePoints
 from gmds import initialization
 from gmds.matching.pair import SurfacePair
-from gmds.matching.proposals import MAPS_PER_METRIC, SAME_MAP, Proposal, Start, distinct, proposals, rough_maps
+from gmds.matching.proposals import MAPS_PER_METRIC, SAME_MAP, Proposal, Start, proposals, rough_maps
 from gmds.registration.deformable import DeformableMesh
+from gmds.registration.distinct import distinct
 from gmds.registration.register import assessed
 from gmds.registration.settings import SIMPLIFIED
 from gmds.spectral.sample_maps import SampledPair
@@ -62,7 +63,7 @@ def samples_of(pair: SampledPair, images: Index) -> Index:
 @pytest.mark.parametrize(("name", "least"), [("bumpy", 2e-3), ("animal", 0.02), ("outlined", 0.03)])
 def test_the_best_map_to_a_turned_copy_is_the_right_one_by_far(name: str, least: float) -> None:
     pair, place = turned(name)
-    first, second, *_ = distinct(of_copy(name), pair.simplified[0], 2)
+    first, second, *_ = distinct(of_copy(name), pair.simplified[0].areas, SAME_MAP, count=2)
     assert off(pair, first, place) < least
     assert off(pair, second, place) > 0.04
     assert first.neg_log_likelihood < second.neg_log_likelihood - 1
@@ -139,12 +140,12 @@ def synthetic() -> tuple[DeformableMesh, list[Proposal]]:
 
 
 def test_distinct_keeps_the_best_of_those_that_are_alike(synthetic: tuple[DeformableMesh, list[Proposal]]) -> None:
-    deformable, made = synthetic
+    (deformable, made), likely = synthetic, functools.partial(distinct, apart=SAME_MAP)
     shuffled = [made[i] for i in np.random.default_rng(0).permutation(len(made))]
     for count in (1, 3, 20):
-        assert distinct(shuffled, deformable, count) == made[::2][:count]
-    assert distinct([], deformable, 3) == []
-    assert distinct([made[1], made[0]], deformable, 3) == [made[0]]
+        assert likely(shuffled, deformable.areas, count=count) == made[::2][:count]
+    assert likely([], deformable.areas, count=3) == []
+    assert likely([made[1], made[0]], deformable.areas, count=3) == [made[0]]
 
 
 def test_proposals_do_not_depend_on_size_and_place() -> None:

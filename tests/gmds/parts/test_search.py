@@ -9,7 +9,8 @@ from generated_shapes import rectangle
 
 from gmds.matching.pair import SurfacePair
 from gmds.parts.extremities import inner_extremities
-from gmds.parts.search import APART, PartMap, belief, distinct_maps, part_maps
+from gmds.parts.search import APART, PartMap, belief, part_maps
+from gmds.registration.distinct import distinct
 from gmds.surface.measured import measure
 
 
@@ -47,7 +48,8 @@ def test_maps_come_likeliest_first_and_differ(pair: SurfacePair, found: list[Par
     for i, one in enumerate(found):
         for other in found[:i]:
             assert np.sqrt(areas @ ((one.registered.y - other.registered.y) ** 2).sum(axis=1)) > APART
-    assert [id(one) for one in distinct_maps([*found[::-1], *found], pair.simplified[0])] == [id(one) for one in found]
+    again = distinct([*found[::-1], *found], pair.simplified[0].areas, APART)
+    assert [id(one) for one in again] == [id(one) for one in found]
 
 
 def test_belief_is_a_half_where_strain_is_typical(pair: SurfacePair, found: list[PartMap]) -> None:
