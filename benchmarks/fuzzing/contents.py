@@ -29,6 +29,15 @@ Contents = list[bytes]
 SOURCE, TARGET = icosphere(0), icosphere(1)
 UV = OBJ_V + "vt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/2\nf 1/1 4/2 2/2\nf 2/2 4/2 3/3\n"
 LISTED = json.dumps([{"name": "a", "source": "s/a.off", "target": "s/b.off", "truth": "a.npz", "group": "self"}])
+SPECIMENS = {
+    ".tps": ("LM3=2\n1 2 3\nNA NA NA\nID=fox\nSCALE=0.5\n\nLM3=2\n1 2 3\n4 5 6\nIMAGE=cow.ply\n",),
+    ".csv": ("ID,X1,Y1,Z1,X2,Y2,Z2\nfox,1,2,3,4,5,6\ncow,1,2,3,NA,NA,NA\n", "specimen;name;x;y;z\nfox;a;1,5;2;3\n"),
+    ".nts": ("1 2L 6 1 -9 dim=3\nfox cow\n1 2 3 4 5 6\n1 2 3 -9 -9 -9\n", "1 2L 3 0 dim=3\na b\n1 2 3\n4 5 6\n"),
+    ".txt": ("2\n1 2 3\n4,5 5 6e-1\n", "name x y z\na 1 2 3\nb NA NA NA\n"),
+    ".landmarkAscii": (
+        "# Avizo 3D ASCII 2.0\ndefine Markers 2\nMarkers { float[3] Coordinates } @1\n@1\n1 2 3\n4 5 6e0\n",
+    ),
+}
 SETTINGS = """# some of them
 [matching]
 samples = 200

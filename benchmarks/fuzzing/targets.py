@@ -18,6 +18,7 @@ from benchmarks.fuzzing.contents import (
     LISTED,
     SETTINGS,
     SOURCE,
+    SPECIMENS,
     TARGET,
     UV,
     Contents,
@@ -41,7 +42,7 @@ from gmds.benchmarking.truth_files import read_truth_npz, read_vts
 from gmds.cli.settings import TABLES, read_settings
 from gmds.correspondence import Correspondence
 from gmds.files.values import read_values
-from gmds.landmarks.files import Landmarks, read_landmarks
+from gmds.landmarks.files import Landmarks, read_landmarks, read_specimens
 from gmds.landmarks.pair_files import read_landmarks as read_marks
 
 
@@ -72,7 +73,12 @@ def _map_holds(answer: Correspondence) -> bool:
 
 
 def _marks_hold(found: Landmarks) -> bool:
-    return len(found.names) == len(found.at) > 0 and bool(np.isfinite(found.at).all())
+    placed = found.at[found.defined]
+    return len(found.names) == len(found.at) > 0 and bool(np.isfinite(placed).all()) and bool(found.defined.any())
+
+
+def _specimens_hold(found: Mapping[str, Landmarks]) -> bool:
+    return len(found) > 0 and all(map(_marks_hold, found.values()))
 
 
 def _settings_hold(found: Mapping[str, Any]) -> bool:
@@ -137,7 +143,11 @@ MAPS: Mapping[str, Target] = {
 TEXTS: Mapping[str, Target] = {
     **{
         f"landmarks, {ending}": Target(read_landmarks, f"a{ending}", functools.partial(marks, ending), _marks_hold)
-        for ending in (".csv", ".mrk.json", ".fcsv", ".tps", ".pts", ".vts")
+        for ending in (".csv", ".mrk.json", ".fcsv", ".tps", ".pts", ".vts", ".pp")
+    },
+    **{
+        f"specimens, {ending}": Target(read_specimens, f"a{ending}", of_text(*texts), _specimens_hold)
+        for ending, texts in SPECIMENS.items()
     },
     "landmark pairs": Target(read_marks, "a.txt", of_text("0 0\n5, 5  # nose\n", "0 0 1; 2.5 1e-3 -7\n")),
     "pair list": Target(read_list, "a.txt", of_text("a.off,b.off\nb.off, c.off\n", "# all\na.off\nb.off\n")),

@@ -1,7 +1,8 @@
-"""A specimen from both sides with its landmarks, numbered as in the table."""
+"""A specimen from both sides with its landmarks, named as in the tables."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -18,11 +19,18 @@ BALL = 0.018  # radius, in square roots of the area; set by hand
 PIXELS = 560  # of the longer side; set by hand
 
 
-def draw(path: Path, mesh: Mesh, places: Array, doubtful: NDArray[np.bool_], up: Direction) -> None:
-    """A PNG of landmarks (k, 3) on a mesh: blue, or red where they are `doubtful` (k,); its name is the title."""
+def draw(
+    path: Path, mesh: Mesh, names: Sequence[str], places: Array, doubtful: NDArray[np.bool_], up: Direction
+) -> None:
+    """A PNG of named landmarks (k, 3) on a mesh: blue, or red where they are `doubtful` (k,); its name is the title.
+
+    Landmarks without a place (NaN) are not drawn.
+    """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
+    there = np.flatnonzero(np.isfinite(places).all(axis=1))
+    names, places, doubtful = [names[i] for i in there], places[there], doubtful[there]
     shape, colours = _with_balls(mesh, places, doubtful)
     views = [broadside(mesh, up, azimuth=azimuth) for azimuth in (30.0, 210.0)]
     images = [render(shape, colours, rotation=view, pixels=PIXELS) for view in views]
@@ -38,10 +46,11 @@ def draw(path: Path, mesh: Mesh, places: Array, doubtful: NDArray[np.bool_], up:
         camera, marks = shape.vertices @ view.T, places @ view.T
         low, high = camera[:, :2].min(axis=0), camera[:, :2].max(axis=0)
         spots = (marks[:, :2] - (low + high) / 2) * (0.94 * PIXELS / (high - low).max()) * [1, -1]
-        front = marks[:, 2] >= np.median(camera[:, 2])  # numbers of what is behind would only be in the way
-        for number in np.flatnonzero(front):
-            x, y = spots[number] + [columns / 2, rows / 2]
-            axis.text(x + 6, y - 6, str(number + 1), fontsize=8, color=DOUBTFUL if doubtful[number] else "black")
+        front = marks[:, 2] >= np.median(camera[:, 2])  # names of what is behind would only be in the way
+        for i in np.flatnonzero(front):
+            x, y = spots[i] + [columns / 2, rows / 2]
+            ink = DOUBTFUL if doubtful[i] else "black"
+            axis.text(x + 6, y - 6, names[i], fontsize=8, color=ink, parse_math=False)
         left += columns
     figure.text(0.5, 1 - 4 / (height + 30), path.stem, ha="center", va="top", parse_math=False)
     figure.savefig(path, metadata={"Software": None})

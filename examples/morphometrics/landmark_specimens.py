@@ -21,6 +21,7 @@ from geodesics import Mesh, MeshError, read_mesh
 from geodesics.errors import FormatError
 from gmds.files.folders import mesh_files
 from gmds.files.table import write_table
+from gmds.landmarks.checking import place_on
 from gmds.landmarks.files import Landmarks, read_landmarks
 from gmds.landmarks.transfer import carry_landmarks
 from gmds.pictures.camera import Direction
@@ -32,6 +33,7 @@ Array = NDArray[np.float64]
 UP: dict[str, Direction] = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 # both set by hand: who looks at more is on the safe side
 DOUBTFUL = 0.3  # confidence of a landmark below which it needs a look
+MISSING = ("NA", "NA", "NA")  # a place, as R reads it
 FAR = 3.0  # times the median distance from the mean shape beyond which a specimen does
 
 
@@ -49,6 +51,15 @@ class Specimen:
     @property
     def doubtful(self) -> NDArray[np.bool_]:
         return ~self.valid | (self.confidence < DOUBTFUL)
+
+    @classmethod
+    def of_template(cls, name: str, mesh: Mesh, marks: Landmarks) -> Specimen:
+        """The template itself, with its landmarks as they were given."""
+        there = marks.defined
+        on_mesh = place_on(marks.at[there], mesh, "template").positions
+        positions = np.full((len(marks), 3), np.nan)
+        positions[there] = marks.at[there] if marks.at.shape[1:] == (3,) else on_mesh
+        return cls(name, mesh, gmds.MatchStatus.GOOD, positions, there.astype(np.float64), there)
 
     @property
     def configuration(self) -> Array:
@@ -69,11 +80,11 @@ def reasons(specimens: list[Specimen], marks: Landmarks, distance: Array) -> Ite
         if specimen.status is not gmds.MatchStatus.GOOD:
             yield specimen.name, f"{specimen.status.name}: {specimen.status.value}"
         for text, rows in (
-            ("no counterpart on the specimen", ~specimen.valid),
+            ("no counterpart on the specimen", marks.defined & ~specimen.valid),
             (f"confidence below {DOUBTFUL}", specimen.valid & (specimen.confidence < DOUBTFUL)),
         ):
             if rows.any():
-                yield specimen.name, f"{text}: {', '.join(marks.names[i] for i in np.flatnonzero(rows))}"
+                yield specimen.name, f"{text}: {', '.join(marks.distinct_names[i] for i in np.flatnonzero(rows))}"
         if far > FAR * np.nanmedian(distance):
             yield specimen.name, f"{far / np.nanmedian(distance):.1f} times the median distance from the mean shape"
 
@@ -81,14 +92,14 @@ def reasons(specimens: list[Specimen], marks: Landmarks, distance: Array) -> Ite
 def write_tables(out: Path, specimens: list[Specimen], marks: Landmarks) -> Array:
     """landmarks.csv (a row a landmark), landmarks.tps, shapes.csv (a row a specimen); distances from the mean shape."""
     table = [
-        (one.name, name, *at, f"{trust:.4f}", int(valid))
+        (one.name, name, *(at if valid else MISSING), f"{trust:.4f}", int(valid))
         for one in specimens
-        for name, at, trust, valid in zip(marks.names, one.positions.tolist(), one.confidence, one.valid, strict=True)
+        for name, trust, (at, valid) in zip(marks.names, one.confidence, _placed(one), strict=True)
     ]
     write_table(out / "landmarks.csv", ["specimen", "landmark", "x", "y", "z", "confidence", "valid"], table)
     blocks = []
     for one in specimens:
-        rows = "\n".join(" ".join(map(repr, at)) if valid else "NA NA NA" for at, valid in _placed(one))
+        rows = "\n".join(" ".join(map(repr, at) if valid else MISSING) for at, valid in _placed(one))
         blocks.append(f"LM3={len(marks)}\n{rows}\nID={one.name}\n")
     (out / "landmarks.tps").write_text("\n".join(blocks))
     try:
@@ -97,7 +108,7 @@ def write_tables(out: Path, specimens: list[Specimen], marks: Landmarks) -> Arra
         print(f"no shapes.csv: {error}")
         return np.full(len(specimens), np.nan)
     distance = procrustes.distances(aligned, mean)
-    axes = [f"{name}.{axis}" for name in marks.names for axis in "xyz"]
+    axes = [f"{name}.{axis}" for name in marks.distinct_names for axis in "xyz"]
     rows = (_row(*known) for known in zip(specimens, aligned, distance.tolist(), strict=True))
     write_table(out / "shapes.csv", ["specimen", "centroid_size", "distance_to_mean", *axes], rows)
     return distance
@@ -114,25 +125,35 @@ def _placed(one: Specimen) -> Iterator[tuple[list[float], bool]]:
 
 
 def run(
-    specimens: Iterator[tuple[str, Mesh]], template: Mesh, marks: Landmarks, out: Path, up: Direction = UP["z"]
+    specimens: Iterator[tuple[str, Mesh]],
+    template: tuple[str, Mesh],
+    marks: Landmarks,
+    out: Path,
+    up: Direction = UP["z"],
 ) -> list[Specimen]:
-    """Everything of a collection, into a folder; `up` is up in the pictures."""
+    """Everything of a collection, into a folder, the template first; `up` is up in the pictures."""
     (out / "pictures").mkdir(parents=True, exist_ok=True)
-    surface, done, to_look_at = measure(template), [], []
+    surface, to_look_at = measure(template[1]), []
+    done = [Specimen.of_template(*template, marks)]
+    _draw(out, done[0], marks, up)
     for name, mesh in specimens:
         try:
             done.append(landmarked(name, mesh, surface, marks))
         except (MeshError, ArithmeticError) as error:
             to_look_at.append((name, str(error)))
             continue
-        drawing.draw(out / "pictures" / f"{name}.png", mesh, done[-1].positions, done[-1].doubtful, up)
+        _draw(out, done[-1], marks, up)
         print(f"{name}: {done[-1].status.name}, {int(done[-1].doubtful.sum())} of {len(marks)} landmarks doubtful")
-    if done:
-        to_look_at += reasons(done, marks, write_tables(out, done, marks))
+    to_look_at += reasons(done[1:], marks, write_tables(out, done, marks)[1:])
     write_table(out / "to_look_at.csv", ["specimen", "why"], to_look_at)
     for name, why in to_look_at:
         print(f"needs a look: {name}: {why}")
     return done
+
+
+def _draw(out: Path, one: Specimen, marks: Landmarks, up: Direction) -> None:
+    path = out / "pictures" / f"{one.name}.png"
+    drawing.draw(path, one.mesh, marks.distinct_names, one.configuration, one.doubtful, up)
 
 
 def in_folder(folder: Path, template: Path) -> Iterator[tuple[str, Mesh]]:
@@ -178,18 +199,19 @@ def main(arguments: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", nargs="?", type=Path, help="meshes of the specimens")
     parser.add_argument("--template", type=Path, help="the mesh that has landmarks")
-    parser.add_argument("--landmarks", type=Path, help="its landmarks: .csv, .mrk.json, .fcsv, .tps, .pts or .vts")
+    parser.add_argument("--landmarks", type=Path, help="its landmarks: .csv, .mrk.json, .fcsv, .tps, .pts, .pp, ...")
     parser.add_argument("-o", "--output", type=Path, default=Path("morphometrics"), help="folder for the results")
     parser.add_argument("--up", choices=UP, default="z", help="the axis of the meshes that points up in the pictures")
     given = parser.parse_args(arguments)
     if given.folder is None:
         template, marks, others = built_in()
-        run(iter(others.items()), template, marks, given.output)
+        run(iter(others.items()), ("template", template), marks, given.output)
         return
     if given.template is None or given.landmarks is None:
         parser.error("a folder needs --template and --landmarks")
     specimens = in_folder(given.folder, given.template)
-    run(specimens, read_mesh(given.template), read_landmarks(given.landmarks), given.output, UP[given.up])
+    template = given.template.stem, read_mesh(given.template)
+    run(specimens, template, read_landmarks(given.landmarks), given.output, UP[given.up])
 
 
 if __name__ == "__main__":

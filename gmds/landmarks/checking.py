@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -12,9 +13,8 @@ from geodesics.arrays import Floats
 from geodesics.errors import Note
 from gmds.errors import LandmarkError
 from gmds.landmarks.placed import PlacedLandmarks
+from gmds.landmarks.snapping import called_by, snapped
 from gmds.landmarks.soft import SoftLandmarks
-
-FARTHEST_LANDMARK = 0.05  # of the diagonal of the bounding box, off the surface: a convention, beyond is a mistake
 
 
 def check_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> tuple[SurfacePoints, SurfacePoints]:
@@ -65,9 +65,12 @@ def place_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> PlacedLandmar
     return PlacedLandmarks(on_source, on_target, _tolerances(tolerance, len(on_source)), tuple(notes))
 
 
-def place_on(given: Any, mesh: Mesh, name: str = "surface") -> SurfacePoints:
-    """Landmarks of one mesh, vertices (k,) or positions (k, 3), as points of it; raises as `check_landmarks`."""
-    return _place(given if isinstance(given, SurfacePoints) else _array(given), mesh, name, [])
+def place_on(given: Any, mesh: Mesh, name: str = "surface", called: Sequence[str] = ()) -> SurfacePoints:
+    """Landmarks of one mesh, vertices (k,) or positions (k, 3), as points of it; raises as `check_landmarks`.
+
+    `called`: the names (k,) by which errors call them; else their rows.
+    """
+    return _place(given if isinstance(given, SurfacePoints) else _array(given), mesh, name, [], called)
 
 
 def _halves(landmarks: Any) -> tuple[Any, Any]:
@@ -95,23 +98,23 @@ def _array(values: Any) -> NDArray[Any]:
     return array
 
 
-def _place(given: Any, mesh: Mesh, name: str, notes: list[Note]) -> SurfacePoints:
+def _place(given: Any, mesh: Mesh, name: str, notes: list[Note], called: Sequence[str] = ()) -> SurfacePoints:
     """One half of the landmarks on its mesh."""
     if isinstance(given, SurfacePoints):
         if given.mesh is not mesh:
             raise LandmarkError("E300", f"the landmarks of the {name} are points of another mesh")
         points = given
     elif given.ndim == 2 and given.shape[1] == 3:
-        points = _snap(given, mesh, name, notes)
+        points = snapped(given, mesh, name, notes, called)
     elif given.ndim == 2 and given.shape[1] == 4:
         points = _on_faces(given, mesh, name)
     elif given.ndim == 1:
-        return _at_vertices(given, mesh, name)
+        return _at_vertices(given, mesh, name, called)
     else:
         raise LandmarkError(
             "E300", f"landmarks of the {name} must have shape (k,), (k, 3) or (k, 4), not {given.shape}"
         )
-    _refuse_repeats(points.positions, name)
+    _refuse_repeats(points.positions, name, called)
     return points
 
 
@@ -137,46 +140,28 @@ def _tolerances(given: ArrayLike, count: int) -> Floats:
     return tolerance
 
 
-def _at_vertices(given: NDArray[Any], mesh: Mesh, name: str) -> SurfacePoints:
+def _at_vertices(given: NDArray[Any], mesh: Mesh, name: str, called: Sequence[str]) -> SurfacePoints:
     if given.dtype.kind == "f" and (~np.isfinite(given) | (given != np.floor(given))).any():
         raise LandmarkError("E300", f"vertex indices of the {name} must be whole numbers")
     bad = np.flatnonzero((given < 0) | (given >= mesh.n_vertices))
     if len(bad):
         raise LandmarkError(
-            "E301", f"landmark {bad[0]}: the {name} has no vertex {given[bad[0]]}; it has {mesh.n_vertices}, from 0"
+            "E301",
+            f"{called_by(called, bad[0])}: the {name} has no vertex {given[bad[0]]}; it has {mesh.n_vertices}, from 0",
         )
-    _refuse_repeats(given[:, None], name)
+    _refuse_repeats(given[:, None], name, called)
     lonely = np.flatnonzero(~np.isin(given, mesh.faces))
     if len(lonely):
-        raise LandmarkError("E304", f"landmark {lonely[0]}: vertex {given[lonely[0]]} of the {name} is on no face")
+        raise LandmarkError(
+            "E304", f"{called_by(called, lonely[0])}: vertex {given[lonely[0]]} of the {name} is on no face"
+        )
     return SurfacePoints.at_vertices(mesh, given)
 
 
-def _refuse_repeats(rows: NDArray[Any], name: str) -> None:
+def _refuse_repeats(rows: NDArray[Any], name: str, called: Sequence[str]) -> None:
     _, first, inverse = np.unique(rows, axis=0, return_index=True, return_inverse=True)
     repeated = np.flatnonzero(first[inverse.reshape(-1)] != np.arange(len(rows)))
     if len(repeated):
         earlier = first[inverse.reshape(-1)][repeated[0]]
-        raise LandmarkError("E302", f"landmarks {earlier} and {repeated[0]} are the same point of the {name}")
-
-
-def _snap(given: NDArray[Any], mesh: Mesh, name: str, notes: list[Note]) -> SurfacePoints:
-    try:
-        points = SurfacePoints.closest(mesh, given)
-    except MeshError as error:
-        raise LandmarkError("E300", f"positions of the {name} landmarks: {error}") from error
-    distance = np.linalg.norm(points.positions - given, axis=1)
-    share = distance / np.linalg.norm(np.ptp(mesh.vertices[mesh.faces], axis=(0, 1)))
-    worst = int(share.argmax())
-    if share[worst] > FARTHEST_LANDMARK:
-        raise LandmarkError(
-            "E305",
-            f"landmark {worst} lies {share[worst]:.1%} of the diagonal of the {name} off its surface (at most 5 %)",
-        )
-    moved = np.flatnonzero(share > 1e-6)
-    if len(moved):
-        message = (
-            f"{len(moved)} landmarks of the {name} moved to its surface, by up to {share[worst]:.2%} of the diagonal"
-        )
-        notes.append(Note("W301", "info", message, tuple(moved.tolist())))
-    return points
+        both = f"{called_by(called, earlier)} and {called_by(called, repeated[0])}"
+        raise LandmarkError("E302", f"{both} are the same point of the {name}")

@@ -8,6 +8,7 @@ import numpy as np
 
 from geodesics import SurfacePoints
 from geodesics.arrays import Bools, Floats
+from gmds.errors import LandmarkError
 from gmds.landmarks.checking import place_on
 from gmds.landmarks.files import Landmarks
 from gmds.maps.images import image
@@ -20,14 +21,15 @@ class CarriedLandmarks:
 
     Attributes
     ----------
-    names : tuple of str
-        k of them.
+    given : Landmarks
+        The k landmarks of the source.
     on_source, on_target : SurfacePoints
-        The k points.
+        The k points; those of a landmark that has no place in `given` mean nothing.
     moved : float64 array of shape (k,)
         How far the given positions were from the surface of the source, in its units; 0 for vertices.
     valid : bool array of shape (k,)
-        False where the source has no counterpart on the target; such a point means nothing.
+        False where the landmark has no place on the source, or that place no counterpart on the target; such a point
+        means nothing.
     distortion : float64 array of shape (k,)
         That of the map there.
 
@@ -36,12 +38,17 @@ class CarriedLandmarks:
     carry_landmarks : Makes them.
     """
 
-    names: tuple[str, ...]
+    given: Landmarks
     on_source: SurfacePoints
     on_target: SurfacePoints
     moved: Floats
     valid: Bools
     distortion: Floats
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names, (k,)."""
+        return self.given.names
 
     @property
     def confidence(self) -> Floats:
@@ -53,7 +60,7 @@ class CarriedLandmarks:
         return np.where(self.valid, np.clip(1 - self.distortion, 0, 1), 0.0)
 
     def landmarks(self, *, vertices: bool = False) -> Landmarks:
-        """The landmarks on the target.
+        """The landmarks on the target, in the same order: missing where not `valid`, undefined as on the source.
 
         Parameters
         ----------
@@ -65,8 +72,11 @@ class CarriedLandmarks:
         Landmarks
             Ready for `write_landmarks`.
         """
-        at = self.on_target.nearest_vertices() if vertices else self.on_target.positions
-        return Landmarks(self.names, at)
+        at = self.on_target.nearest_vertices() if vertices else self.on_target.positions.copy()
+        at[~self.valid] = -1 if vertices else np.nan
+        lost = self.given.defined & ~self.valid
+        status = np.where(lost, "missing", np.array(self.given.status)).tolist()
+        return Landmarks(self.names, at, self.given.named, tuple(status))
 
 
 def carry_landmarks(answer: PointMap, landmarks: Landmarks) -> CarriedLandmarks:
@@ -77,7 +87,7 @@ def carry_landmarks(answer: PointMap, landmarks: Landmarks) -> CarriedLandmarks:
     answer : Correspondence
         The map.
     landmarks : Landmarks
-        k vertices, positions, or points of faces of its source.
+        k vertices, positions, or points of faces of its source; some may have no place.
 
     Returns
     -------
@@ -94,9 +104,15 @@ def carry_landmarks(answer: PointMap, landmarks: Landmarks) -> CarriedLandmarks:
     --------
     gmds.landmarks.files.read_landmarks, gmds.landmarks.files.write_landmarks : From and to files.
     """
-    on_source = place_on(landmarks.at, answer.source, "source")
-    moved = np.zeros(len(landmarks))
+    there = np.flatnonzero(landmarks.defined)
+    if not len(there):
+        raise LandmarkError("E300", "none of the landmarks has a place")
+    named = [landmarks.distinct_names[i] for i in there] if landmarks.named else ()
+    placed = place_on(landmarks.at[there], answer.source, "source", named)
+    row = np.zeros(len(landmarks), dtype=np.int64)  # those without a place stand at the first one that has one
+    row[there] = np.arange(len(there))
+    on_source, moved = placed[row], np.zeros(len(landmarks))
     if landmarks.at.shape[1:] == (3,):
-        moved = np.linalg.norm(on_source.positions - landmarks.at, axis=1)
+        moved[there] = np.linalg.norm(placed.positions - landmarks.at[there], axis=1)
     on_target, valid, distortion = image(answer, on_source)
-    return CarriedLandmarks(landmarks.names, on_source, on_target, moved, valid, distortion)
+    return CarriedLandmarks(landmarks, on_source, on_target, moved, valid & landmarks.defined, distortion)

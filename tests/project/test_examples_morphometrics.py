@@ -89,21 +89,29 @@ def rows(path: Path) -> list[dict[str, str]]:
 def test_the_table_holds_the_landmarks_where_they_belong(done: tuple[Path, Any, Any, Landmarks]) -> None:
     out, template, walking, marks = done
     table = rows(out / "landmarks.csv")
-    assert [row["landmark"] for row in table] == [*marks.names] * 3
-    assert list(dict.fromkeys(row["specimen"] for row in table)) == ["a_turned", "b_walking", "c_half"]
-    places = np.array([[float(row[axis]) for axis in "xyz"] for row in table]).reshape(3, len(marks), 3)
+    assert [row["landmark"] for row in table] == [*marks.names] * 4
+    assert list(dict.fromkeys(row["specimen"] for row in table)) == ["template", "a_turned", "b_walking", "c_half"]
+    lost = [row for row in table if row["valid"] == "0"]
+    assert {row["specimen"] for row in lost} == {"c_half"} and all(row["x"] == row["z"] == "NA" for row in lost)
+    known = [[float(row[axis].replace("NA", "nan")) for axis in "xyz"] for row in table]
+    own, *places = np.array(known).reshape(4, len(marks), 3)
+    assert np.array_equal(own, template.vertices[marks.vertices])
     assert np.abs(places[0] - 3 * template.vertices[marks.vertices] @ TURN.T).max() < 1e-6
     true = truth(template, walking)[marks.vertices].positions
     off = np.linalg.norm(places[1] - true, axis=1) / np.sqrt(walking.area)
-    trusted = np.array([float(row["confidence"]) >= 0.3 for row in table[len(marks) : 2 * len(marks)]])
+    trusted = np.array([float(row["confidence"]) >= 0.3 for row in table[2 * len(marks) : 3 * len(marks)]])
     assert trusted.sum() >= 6 and off[trusted].max() < 0.06  # the ears of so coarse an animal are doubtful, and told
 
 
-def test_the_tps_file_has_a_block_for_each_specimen(done: tuple[Path, Any, Any, Landmarks], tmp_path: Path) -> None:
+def test_the_tps_file_has_a_block_for_each_specimen(done: tuple[Path, Any, Any, Landmarks]) -> None:
     blocks = (done[0] / "landmarks.tps").read_text().split("\n\n")
-    assert [block.strip().splitlines()[-1] for block in blocks] == ["ID=a_turned", "ID=b_walking", "ID=c_half"]
-    (tmp_path / "one.tps").write_text(blocks[0])
-    first = read_landmarks(tmp_path / "one.tps")
+    assert [block.strip().splitlines()[-1] for block in blocks] == [
+        "ID=template", "ID=a_turned", "ID=b_walking", "ID=c_half",
+    ]  # fmt: skip
+    half = read_landmarks(done[0] / "landmarks.tps", specimen="c_half")
+    assert 0 < half.defined.sum() < len(half)
+    assert np.isnan(read_landmarks(done[0] / "landmarks.csv", specimen="c_half").at[~half.defined]).all()
+    first = read_landmarks(done[0] / "landmarks.tps", specimen="a_turned")
     assert np.abs(first.positions - 3 * done[1].vertices[done[3].vertices] @ TURN.T).max() < 1e-6
 
 
@@ -119,5 +127,26 @@ def test_what_needs_a_look_is_told_and_everything_is_drawn(done: tuple[Path, Any
     listed = {row["specimen"] for row in rows(done[0] / "to_look_at.csv")}
     assert "c_half" in listed and "a_turned" not in listed
     pictures = sorted((done[0] / "pictures").iterdir())
-    assert [path.name for path in pictures] == ["a_turned.png", "b_walking.png", "c_half.png"]
+    assert [path.name for path in pictures] == ["a_turned.png", "b_walking.png", "c_half.png", "template.png"]
     assert all(path.stat().st_size > 10_000 for path in pictures)
+
+
+def test_pictures_name_landmarks_as_tables_do(example: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from matplotlib.axes import Axes
+
+    said: list[str] = []
+    monkeypatch.setattr(Axes, "text", lambda _, x, y, words, **more: said.append(words))
+    template, marks, _ = example.built_in(500)
+    places = template.vertices[marks.vertices]
+    places[3] = np.nan
+    example.drawing.draw(tmp_path / "a.png", template, marks.names, places, np.zeros(len(marks), bool), (0, 0, 1))
+    others = {name for i, name in enumerate(marks.names) if i != 3}
+    assert set(said) <= others and len(set(said)) >= len(others) - 2  # what is behind in both views has none
+
+
+def test_a_template_with_undefined_points(example: Any) -> None:
+    template, marks, _ = example.built_in(500)
+    some = Landmarks(marks.names, np.where(np.arange(len(marks)) == 2, -1, marks.vertices))
+    one = example.Specimen.of_template("t", template, some)
+    assert one.valid.tolist() == some.defined.tolist() and np.isnan(one.configuration[2]).all()
+    assert not list(example.reasons([one], some, np.array([0.1])))

@@ -14,7 +14,9 @@ READERS = [
     "colours, .obj", "colours, .ply", "colours, .glb", "texture", "map", "map, meta inside", "map, face inside",
     "map, barycentric inside", "map, valid inside", "map, distortion inside", "landmarks of a map", "settings of a map",
     "map, kept by a batch", "landmarks, .csv", "landmarks, .mrk.json", "landmarks, .fcsv", "landmarks, .tps",
-    "landmarks, .pts", "landmarks, .vts", "landmark pairs", "pair list", "settings", "values, .csv", "values, .txt",
+    "landmarks, .pts", "landmarks, .vts", "landmarks, .pp", "specimens, .tps", "specimens, .csv", "specimens, .nts",
+    "specimens, .txt", "specimens, .landmarkAscii", "landmark pairs", "pair list", "settings", "values, .csv",
+    "values, .txt",
     "values, .npy", "truth, .vts", "truth, .npz", "pairs of a benchmark", "pairs.json",
 ]  # fmt: skip
 

@@ -13,6 +13,16 @@ AT = np.array([[1.25, -2.5, 3.0], [0.1, 1e-7, -1e6], [1 / 3, 2.0, 5.0]])
 MARKS = Landmarks(("nose tip", 'left, "ear"', "Größe;3"), AT)
 IN_SPACE = [ending for ending in ENDINGS if ending != ".vts"]
 NAMED = [".csv", ".mrk.json", ".fcsv"]
+AVIZO = """# Avizo 3D ASCII 2.0
+define Markers 2
+Parameters { NumSets 1, ContentType "LandmarkSet" }
+Markers { float[3] Coordinates } @1
+
+# Data section follows
+@1
+1e+00 2 3
+4 5 6
+"""
 HEAD = "# Markups fiducial file version = 4.13\n# CoordinateSystem = LPS\n# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID\n"  # noqa: E501
 
 

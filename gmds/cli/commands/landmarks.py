@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from gmds.cli.group import Command
-from gmds.cli.landmark_options import space_option
+from gmds.cli.landmark_options import check_on, landmarks_of, space_option, specimen_option
 from gmds.cli.output import emit, json_option, note, progress_bar, seed_option
 
 if TYPE_CHECKING:
@@ -28,6 +28,7 @@ FILE = click.Path(path_type=Path)
 @click.option("-o", "--output", required=True, type=OutputFile(), help="Where the landmarks of TARGET go; see above.")
 @click.option("--map", "map_file", type=FILE, help="A map from SOURCE to TARGET; without it they are matched.")
 @space_option
+@specimen_option
 @seed_option
 @json_option
 def command(
@@ -37,6 +38,7 @@ def command(
     output: Path,
     map_file: Path | None,
     space: Any,
+    specimen: str | None,
     seed: int,
     as_json: bool,
 ) -> None:
@@ -47,28 +49,35 @@ def command(
       gmds landmarks dog.ply dog.csv wolf.off -o wolf.csv --map map.npz
 
     \b
-    Landmark files, read and written, by their endings:
-      .csv       name,x,y,z or name,vertex (from 0) a line; written with the columns below
-      .mrk.json  markups of 3D Slicer; the columns below go to the description
-      .fcsv      fiducials of 3D Slicer, likewise
-      .tps .pts  coordinates alone (.pts: with names); .vts: a vertex a line, from 1
+    Landmark files, by their endings; the last line is read only:
+      .csv             name,x,y,z or name,vertex (from 0) a line; written with the columns below
+      .mrk.json .json  markups of 3D Slicer; the columns below go to the description
+      .fcsv            fiducials of 3D Slicer, likewise
+      .pp              picked points of MeshLab
+      .tps .pts        coordinates alone (.pts: with names); .vts: a vertex a line, from 1
+      .txt .xyz .particles .nts .dta .landmarkAscii, and tables of MorphoJ in a .csv or .txt
+
+    Of a file with several specimens the one is taken that is named as SOURCE, or whose landmarks alone lie on it, or
+    that --specimen names.
 
     \b
     For every landmark the table has
       moved       how far it was from the surface of SOURCE, in the units of the mesh
       confidence  1 - the distortion of the map there, at least 0; a rank for whom to look at first, no probability.
                   1: distances from it are the same on both surfaces; 0: they differ by as much as their mean
-      valid       whether it has a counterpart; where it has none the confidence is 0 and the place means nothing
+      valid       whether it has a counterpart; where it has none the confidence is 0 and there is no place
+
+    Landmarks without a counterpart, or without a place on SOURCE, keep their places in the list: missing or undefined
+    in .mrk.json, NA in .csv, .tps, .pts and .vts, not active in .pp; a .fcsv cannot say so, they are left out.
     """
     from geodesics import read_mesh
-    from gmds.landmarks.checking import place_on
-    from gmds.landmarks.files import ending, read_landmarks, write_landmarks
+    from gmds.landmarks.files import ending, write_landmarks
     from gmds.landmarks.transfer import carry_landmarks
 
     as_vertices = ending(output) == ".vts"  # before the matching: a wrong ending should not cost minutes
-    marks = read_landmarks(landmarks, space)
     meshes = read_mesh(source), read_mesh(target)
-    place_on(marks.at, meshes[0], "source")  # likewise
+    marks = landmarks_of(landmarks, space, meshes[0], source, specimen)
+    check_on(marks, meshes[0], "source")  # likewise
     answer = _map(*meshes, map_file, seed)
     carried = carry_landmarks(answer, marks)
     columns = {
@@ -77,16 +86,18 @@ def command(
     }
     write_landmarks(output, carried.landmarks(vertices=as_vertices), space, columns)
     if marks.missing:
-        note(f"{len(marks.missing)} landmarks have no place on the source and are left out: {', '.join(marks.missing)}")
+        note(f"{len(marks.missing)} landmarks have no place on the source: {', '.join(marks.missing)}")
     rows = _told(carried)
     summary = {"landmarks": str(output), "status": answer.status.name, "meaning": answer.status.value}
-    emit(
-        {**summary, "carried": rows} if as_json else summary | {f"landmark {row.pop('name')}": row for row in rows},
-        as_json,
-    )
-    lost = [name for name, valid in zip(carried.names, carried.valid, strict=True) if not valid]
+    lines = {f"landmark {name}": row for name, row in zip(marks.distinct_names, rows, strict=True)}
+    plain = {title: {key: row[key] for key in row if key != "name"} for title, row in lines.items()}
+    emit(summary | ({"carried": rows} if as_json else plain), as_json)
+    given = zip(marks.distinct_names, carried.valid, marks.defined, strict=True)
+    lost = [name for name, valid, defined in given if defined and not valid]
     if lost:
         note(f"without a counterpart on the target: {', '.join(lost)}")
+    if output.suffix.lower() == ".fcsv" and not carried.valid.all():
+        note(f"{int((~carried.valid).sum())} landmarks without a place are left out, as .fcsv has no word for them")
 
 
 def _map(source: Mesh, target: Mesh, map_file: Path | None, seed: int) -> Correspondence:
@@ -104,9 +115,9 @@ def _told(carried: CarriedLandmarks) -> list[dict[str, Any]]:
     return [
         {
             "name": name,
-            "position": positions[i].tolist(),
-            "vertex": int(vertices[i]),
-            "moved": float(carried.moved[i]),
+            "position": positions[i].tolist() if carried.valid[i] else None,
+            "vertex": int(vertices[i]) if carried.valid[i] else None,
+            "moved": float(carried.moved[i]) if carried.given.defined[i] else None,
             "confidence": float(carried.confidence[i]),
             "valid": bool(carried.valid[i]),
         }

@@ -40,8 +40,8 @@ def command(source: Path, target: Path, output: Path, as_json: bool, **options: 
 
     Landmarks are one file for both surfaces, with two vertex numbers (from 0), six coordinates, or twice a face and
     three weights a line, and perhaps a tolerance behind them; or a map, for those it was made with; or, with the option
-    given twice, a file for SOURCE then one for TARGET (.csv, .mrk.json, .fcsv, .tps, .pts, .vts), whose points belong
-    together by name when both have names, else by order.
+    given twice, a file for SOURCE then one for TARGET (.csv, .mrk.json, .fcsv, .tps, .pts, ...; `gmds landmarks --help`
+    lists them), whose points belong together by name when both have names, else by order.
 
     A mesh with a boundary may be a part of what the other one is: a scan from one side, half a skull. Unless landmarks,
     a metric or a distance are given, that is looked into, and the shares of both that correspond are told (overlap);
@@ -53,7 +53,7 @@ def command(source: Path, target: Path, output: Path, as_json: bool, **options: 
     from gmds import match
 
     meshes = read_mesh(source), read_mesh(target)
-    known = given_landmarks(options["landmarks"], options["space"], options["tolerance"])
+    known = given_landmarks(options["landmarks"], options["space"], options["tolerance"], meshes, (source, target))
     started = time.process_time()
     with progress_bar("match") as progress:
         answer = match(*meshes, landmarks=known, progress=progress, **matching_arguments(options))

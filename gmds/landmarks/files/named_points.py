@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import count
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from geodesics.arrays import Floats, Integers
+from geodesics.arrays import Bools, Floats, Integers
 from geodesics.errors import FormatError
-from gmds.errors import LandmarkError
 
 Space = Literal["LPS", "RAS"]
+Status = Literal["defined", "undefined", "missing"]
 SPACES: tuple[Space, ...] = ("LPS", "RAS")
 
 
@@ -25,23 +27,25 @@ class BadLandmarkFile(FormatError):
 
 @dataclass(frozen=True, eq=False)
 class Landmarks:
-    """Named points of one surface, k of them.
+    """Named points of one surface, k of them, in the order of their list.
 
     Parameters
     ----------
     names : tuple of str
-        All different.
+        Two may be equal; they are then told apart by their order.
     at : array_like of shape (k, 3), (k,) or (k, 4)
-        Positions, vertices from 0, or faces from 0 with three barycentric weights, as `match` takes them.
+        Positions, vertices from 0, or faces from 0 with three barycentric weights, as `match` takes them. NaN, or
+        vertex -1, where a landmark has no place.
     named : bool
         Whether the names were given; otherwise they are 1, 2, ...
-    missing : tuple of str
-        Names that are listed without a place.
+    status : tuple of str, optional
+        For each "defined", "undefined" (not placed yet) or "missing" (known not to be there), as in 3D Slicer. Without
+        it those without a place are missing.
 
     Raises
     ------
     BadLandmarkFile
-        When a name is there twice or the shapes do not agree (E306).
+        When the shapes do not agree (E306).
 
     See Also
     --------
@@ -52,17 +56,21 @@ class Landmarks:
     names: tuple[str, ...]
     at: NDArray[Any]
     named: bool = True
-    missing: tuple[str, ...] = ()
+    status: tuple[Status, ...] = ()
 
     def __post_init__(self) -> None:
         at = np.array(self.at, dtype=np.int64 if np.ndim(self.at) == 1 else np.float64)
         if at.shape not in ((len(self.names),), (len(self.names), 3), (len(self.names), 4)):
             raise BadLandmarkFile(f"{len(self.names)} names for landmarks of shape {at.shape}")
-        twice = [name for name, count in Counter(self.names).items() if count > 1]
-        if twice:
-            raise BadLandmarkFile(f"more than one landmark is called {twice[0]!r}; give each a name of its own")
+        nowhere = at < 0 if at.ndim == 1 else ~np.isfinite(at).all(axis=1)
+        status = self.status or tuple("missing" if lost else "defined" for lost in np.asarray(nowhere))
+        there = np.array([word == "defined" for word in status], dtype=bool)
+        if len(status) != len(at) or (there & nowhere).any():
+            raise BadLandmarkFile(f"{len(status)} words of status for {len(at)} landmarks, or one without place")
+        at[~there] = -1 if at.ndim == 1 else np.nan
         at.setflags(write=False)
         object.__setattr__(self, "at", at)
+        object.__setattr__(self, "status", status)
 
     @classmethod
     def unnamed(cls, at: Any) -> Landmarks:
@@ -71,6 +79,26 @@ class Landmarks:
 
     def __len__(self) -> int:
         return len(self.names)
+
+    def __getitem__(self, rows: Integers | Bools) -> Landmarks:
+        chosen = np.arange(len(self))[rows]
+        names, status = (tuple(words[i] for i in chosen) for words in (self.names, self.status))
+        return Landmarks(names, self.at[chosen], self.named, status)
+
+    @property
+    def defined(self) -> Bools:
+        """Which have a place, (k,)."""
+        return np.array([status == "defined" for status in self.status], dtype=bool)
+
+    @property
+    def missing(self) -> tuple[str, ...]:
+        """The names of those that are listed without a place."""
+        return tuple(name for name, there in zip(self.distinct_names, self.defined, strict=True) if not there)
+
+    @property
+    def distinct_names(self) -> tuple[str, ...]:
+        """The names, all different: of equal ones the second is followed by (2), and so on."""
+        return distinct(self.names)
 
     @property
     def positions(self) -> Floats:
@@ -87,45 +115,17 @@ class Landmarks:
         return self.at
 
 
-def paired(source: Landmarks, target: Landmarks) -> tuple[Landmarks, Landmarks, tuple[str, ...]]:
-    """The landmarks that both surfaces have, in the same order: by name when both name theirs, else by order.
+Specimens = dict[str, Landmarks]  # landmarks of several surfaces in one file, by the name of the specimen
 
-    Parameters
-    ----------
-    source, target : Landmarks
-        Of either surface.
 
-    Returns
-    -------
-    source, target : Landmarks
-        Those that both have, in one order.
-    alone : tuple of str
-        The names of those that only one has.
-
-    Raises
-    ------
-    LandmarkError
-        When no name is shared, or when the order decides and the counts differ (E303).
-
-    See Also
-    --------
-    check_landmarks : Takes what both give.
-    """
-    if not (source.named and target.named):
-        if len(source) != len(target):
-            raise LandmarkError(
-                "E303",
-                f"{len(source)} landmarks on the source but {len(target)} on the target, and no names to pair them by",
-            )
-        return source, target, ()
-    shared = [name for name in source.names if name in set(target.names)]
-    if not shared:
-        raise LandmarkError(
-            "E303",
-            f"the landmarks share no name: {_some(source.names)} on the source, {_some(target.names)} on the target",
-        )
-    alone = tuple(name for name in (*source.names, *target.names) if name not in set(shared))
-    return _chosen(source, shared), _chosen(target, shared), alone
+def distinct(names: Sequence[str]) -> tuple[str, ...]:
+    """The names, all different: of equal ones the second is followed by (2), and so on."""
+    taken, found = set(names), []
+    for name, again in occurrences(names):
+        told = name if again == 1 else next(x for i in count(again) if (x := f"{name} ({i})") not in taken)
+        taken.add(told)
+        found.append(told)
+    return tuple(found)
 
 
 def turned(positions: Floats, given: str, wanted: Space) -> Floats:
@@ -133,10 +133,11 @@ def turned(positions: Floats, given: str, wanted: Space) -> Floats:
     return positions if given == wanted else positions * np.array([-1.0, -1.0, 1.0])
 
 
-def _chosen(landmarks: Landmarks, names: list[str]) -> Landmarks:
-    row = {name: i for i, name in enumerate(landmarks.names)}
-    return Landmarks(tuple(names), landmarks.at[[row[name] for name in names]])
-
-
-def _some(names: tuple[str, ...]) -> str:
-    return ", ".join(repr(name) for name in names[:3]) + (", ..." if len(names) > 3 else "")
+def occurrences(names: Sequence[str]) -> list[tuple[str, int]]:
+    """Each name with how often it was there so far, itself included."""
+    so_far: Counter[str] = Counter()
+    found = []
+    for name in names:
+        so_far[name] += 1
+        found.append((name, so_far[name]))
+    return found

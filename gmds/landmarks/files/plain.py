@@ -1,15 +1,20 @@
-"""Landmarks in plain text: .pts, .tps and .vts (see the package for what each holds)."""
+"""Landmarks in plain text: .pts, .vts, and bare coordinates (see the package for what each holds)."""
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from gmds.landmarks.files.named_points import BadLandmarkFile, Landmarks, Space
-from gmds.landmarks.files.reading import Rows, is_number, position, whole
+from gmds.landmarks.files.named_points import BadLandmarkFile, Landmarks, Space, Specimens
+from gmds.landmarks.files.reading import Rows, is_no_place, is_number, plain_number, position, whole
+from gmds.landmarks.files.table import parse_csv
 
 Columns = Mapping[str, Sequence[object]]
+
+HEADS = ("x", "name", "label", "id", "landmark")  # first words of a line of titles
+IDAV_MISSING = [9999.0] * 3  # where IDAV Landmark, and Morpho after it, put what is missing
 
 
 def parse_pts(path: Path, text: str, _: Space) -> Landmarks:
@@ -23,7 +28,8 @@ def parse_pts(path: Path, text: str, _: Space) -> Landmarks:
     rows = Rows(path)
     for number, words in lines:
         named = len(words) == 4
-        rows.add(f"line {number}", words[0] if named else None, position(path, number, words[named:]))
+        at = position(path, number, words[named:])
+        rows.add(f"line {number}", words[0] if named else None, None if at == IDAV_MISSING else at)
     if count is not None and count != len(lines):
         raise BadLandmarkFile(f"{path} declares {count} landmarks and holds {len(lines)}")
     return rows.landmarks()
@@ -31,30 +37,42 @@ def parse_pts(path: Path, text: str, _: Space) -> Landmarks:
 
 def pts_text(landmarks: Landmarks, _: Space, __: Columns) -> str:
     """As IDAV Landmark writes it; blanks in names become `_`, as blanks separate."""
-    rows = (f"{'_'.join(name.split())} {_words(at)}" for name, at in _placed(landmarks))
+    rows = (
+        f"{'_'.join(name.split())} {words_of(at)}"
+        for name, at in zip(landmarks.names, landmarks.positions.tolist(), strict=True)
+    )
     return "\n".join(["Version 1.0", str(len(landmarks)), *rows]) + "\n"
 
 
-def parse_tps(path: Path, text: str, _: Space) -> Landmarks:
-    """The landmarks of the one specimen of a TPS file."""
-    lines = [(number, line.strip()) for number, line in enumerate(text.splitlines(), start=1) if line.strip()]
-    if not lines or not (head := re.fullmatch(r"LM3\s*=\s*(\S+)", lines[0][1], re.IGNORECASE)):
-        where = f", line {lines[0][0]}: {lines[0][1][:40]!r}" if lines else " is empty"
-        raise BadLandmarkFile(f"{path}{where}; a TPS file of landmarks in space begins with LM3=count")
-    count = whole(path, lines[0][0], head[1])
-    rows = Rows(path)
-    for number, line in lines[1 : count + 1]:
-        rows.add(f"line {number}", None, position(path, number, line.split()))
-    if len(rows.names) != count:
-        raise BadLandmarkFile(f"{path} declares {count} landmarks and holds {len(rows.names)}")
-    for number, line in lines[count + 1 :]:
-        _check_tps_key(path, number, line)
+def parse_points(path: Path, text: str, space: Space) -> Landmarks | Specimens:
+    """Three coordinates a line and perhaps a name before or behind them; or a table, when commas or tabs part it."""
+    lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
+    if lines and _is_table(lines[0]):
+        return parse_csv(path, text, space)
+    if lines and re.match(r"version", lines[0], re.IGNORECASE):
+        return parse_pts(path, text, space)
+    rows, counted = Rows(path), 0
+    for number, line in enumerate(text.splitlines(), start=1):
+        words = line.split("#", 1)[0].split()
+        if not words or (not rows.names and not counted and words[0].lower() in HEADS):
+            continue
+        if len(words) == 1 and not rows.names and not counted:
+            counted = whole(path, number, words[0], least=1)
+            continue
+        first = len(words) == 4 and not (is_number(plain_number(words[0])) or is_no_place(words[0]))
+        name = words[0] if first else words[3] if len(words) == 4 else None
+        rows.add(f"line {number}", name, position(path, number, words[first : first + 3] if name else words))
+    if counted not in (0, len(rows.names)):
+        raise BadLandmarkFile(f"{path} declares {counted} landmarks and holds {len(rows.names)}")
     return rows.landmarks()
 
 
-def tps_text(landmarks: Landmarks, _: Space, __: Columns) -> str:
-    """One specimen; names cannot be kept."""
-    return "\n".join([f"LM3={len(landmarks)}", *(_words(at) for _, at in _placed(landmarks)), "ID=0"]) + "\n"
+def _is_table(line: str) -> bool:
+    """Whether cells of a line are parted by tabs, semicolons or commas, which are no decimal commas."""
+    if "\t" in line or ";" in line:
+        return True
+    words = line.split()
+    return "," in line and not (len(words) > 2 and all(is_number(plain_number(word)) for word in words[-3:]))
 
 
 def parse_vts(path: Path, text: str, _: Space) -> Landmarks:
@@ -62,13 +80,13 @@ def parse_vts(path: Path, text: str, _: Space) -> Landmarks:
     rows = Rows(path)
     for number, line in enumerate(text.splitlines(), start=1):
         if line.strip():
-            rows.add(f"line {number}", None, whole(path, number, line, least=1) - 1)
+            rows.add(f"line {number}", None, None if is_no_place(line) else whole(path, number, line, least=1) - 1)
     return rows.landmarks()
 
 
 def vts_text(landmarks: Landmarks, _: Space, __: Columns) -> str:
     """A vertex a line, from 1; names cannot be kept."""
-    return "".join(f"{vertex + 1}\n" for vertex in landmarks.vertices)
+    return "".join(f"{vertex + 1 if vertex >= 0 else 'NA'}\n" for vertex in landmarks.vertices)
 
 
 def _below_header(path: Path, lines: list[tuple[int, list[str]]]) -> tuple[int, list[tuple[int, list[str]]]]:
@@ -85,21 +103,6 @@ def _below_header(path: Path, lines: list[tuple[int, list[str]]]) -> tuple[int, 
     return whole(path, number, " ".join(words)), lines[2:]
 
 
-def _check_tps_key(path: Path, number: int, line: str) -> None:
-    key, equals, value = (part.strip() for part in line.partition("="))
-    if not equals:
-        raise BadLandmarkFile(f"{path}, line {number}: {line[:40]!r} is one more line than LM3= declares")
-    if key.upper() in ("LM3", "LM"):
-        raise BadLandmarkFile(f"{path}, line {number}: a second specimen; keep one a file, as its surface")
-    if key.upper().startswith(("CURVES", "POINTS")) and value != "0":
-        raise BadLandmarkFile(f"{path}, line {number}: curves are not read; keep their points as landmarks")
-    if key.upper() == "SCALE" and not (is_number(value) and float(value) == 1):
-        raise BadLandmarkFile(f"{path}, line {number}: a scale other than 1; give positions as the mesh has them")
-
-
-def _placed(landmarks: Landmarks) -> Iterator[tuple[str, list[float]]]:
-    return zip(landmarks.names, landmarks.positions.tolist(), strict=True)
-
-
-def _words(at: list[float]) -> str:
-    return " ".join(map(repr, at))
+def words_of(at: Sequence[float]) -> str:
+    """Coordinates with blanks between them; NA for what is missing."""
+    return " ".join("NA" if math.isnan(x) else repr(x) for x in at)

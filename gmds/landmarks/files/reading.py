@@ -7,11 +7,14 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
+
 from gmds.files.table import NUMBER
 from gmds.files.text import read_text
-from gmds.landmarks.files.named_points import BadLandmarkFile, Landmarks
+from gmds.landmarks.files.named_points import BadLandmarkFile, Landmarks, Status
 
 LARGEST = 50_000_000  # bytes of a landmark file: a bound on memory, half a million landmarks
+NOWHERE = ("", "na", "n/a", "nan", "null", "none", "-")  # words of R, spreadsheets and Python for what is missing
 WHOLE = r"[+-]?\d{1,18}"  # 18 digits always fit into int64
 
 
@@ -28,11 +31,26 @@ def is_number(word: str) -> bool:
     return NUMBER.fullmatch(word.strip()) is not None
 
 
-def position(path: Path, line: int, words: Sequence[str]) -> list[float]:
-    """Three coordinates from three words."""
+def is_no_place(word: str) -> bool:
+    """Whether a word stands for a number that is missing."""
+    return word.strip().lower() in NOWHERE
+
+
+def plain_number(word: str) -> str:
+    """The word, or with a decimal point where it has one decimal comma."""
+    word = word.strip()
+    return word.replace(",", ".") if word.count(",") == 1 and "." not in word else word
+
+
+def position(path: Path, line: int, words: Sequence[str]) -> list[float] | None:
+    """Three coordinates from three words, with decimal points or commas; None when all three say that it is missing."""
     words = [word.strip() for word in words]
     if len(words) != 3:
         raise BadLandmarkFile(f"{path}, line {line}: {len(words)} coordinates; a landmark in space has 3")
+    if all(map(is_no_place, words)):
+        return None
+    if not any("." in word for word in words):  # beside a decimal point a comma may part thousands
+        words = [plain_number(word) for word in words]
     wrong = [word for word in words if not is_number(word)]
     if wrong:
         raise BadLandmarkFile(f"{path}, line {line}: {wrong[0][:40]!r} is not a number")
@@ -53,38 +71,30 @@ def whole(path: Path, line: int, word: str, least: int = 0) -> int:
 
 
 class Rows:
-    """Landmarks as they are read, one after the other, so that errors can name the line."""
+    """Landmarks as they are read, one after the other, so that errors can name the file."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
         self.names: list[str] = []
-        self.at: list[list[float] | int] = []
-        self.missing: list[str] = []
+        self.at: list[list[float] | int | None] = []
+        self.status: list[Status] = []
         self.named = True
-        self.line_of: dict[str, str] = {}
 
-    def add(self, where: str, name: str | None, at: list[float] | int | None) -> None:
-        """One landmark: its line or place, its name if it has one, and where it is (None: nowhere)."""
+    def add(self, where: str, name: str | None, at: list[float] | int | None, status: Status = "missing") -> None:
+        """One landmark: its line or place, its name if it has one, and where it is; None: nowhere, of this status."""
         if not (name or "").strip():
             name, self.named = None, False
-        called = " ".join(name.split()) if name is not None else str(len(self.names) + len(self.missing) + 1)
-        if called in self.line_of:
-            raise BadLandmarkFile(
-                f"{self.path}, {where}: {called!r} is also the name of the landmark at {self.line_of[called]}"
-            )
-        self.line_of[called] = where
-        if at is None:
-            self.missing.append(called)
-            return
-        self.names.append(called)
+        self.names.append(" ".join(name.split()) if name is not None else str(len(self.names) + 1))
         self.at.append(at)
+        self.status.append(status if at is None else "defined")
 
     def landmarks(self) -> Landmarks:
-        """All of them. Raises `BadLandmarkFile` when there are none."""
+        """All of them. Raises `BadLandmarkFile` when there are none, or none has a place."""
         if not self.names:
             raise BadLandmarkFile(f"{self.path} holds no landmarks")
-        if self.missing and not self.named:
-            raise BadLandmarkFile(
-                f"{self.path}: landmark {self.missing[0]} has no place, and without names the order cannot tell"
-            )
-        return Landmarks(tuple(self.names), self.at, self.named, tuple(self.missing))  # type: ignore[arg-type]
+        if "defined" not in self.status:
+            raise BadLandmarkFile(f"{self.path}: none of its {len(self.names)} landmarks has a place")
+        known = next(at for at in self.at if at is not None)
+        nowhere: list[float] | int = -1 if isinstance(known, int) else [math.nan] * len(known)
+        at = np.array([nowhere if one is None else one for one in self.at])
+        return Landmarks(tuple(self.names), at, self.named, tuple(self.status))

@@ -6,11 +6,14 @@ import csv
 import json
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, NoReturn
 
+import numpy as np
+
 from gmds.files.table import table_text, unguarded
-from gmds.landmarks.files.named_points import SPACES, BadLandmarkFile, Landmarks, Space, turned
+from gmds.landmarks.files.named_points import SPACES, BadLandmarkFile, Landmarks, Space, Status, turned
 from gmds.landmarks.files.reading import Rows, position
 
 Columns = Mapping[str, Sequence[object]]
@@ -21,7 +24,7 @@ SCHEMA = (
 )
 FCSV_COLUMNS = "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID"
 FCSV_SPACES = {"LPS": "LPS", "RAS": "RAS", "0": "RAS", "1": "LPS"}  # numbers until 4.10
-NOWHERE = ("undefined", "missing", "preview")  # values of positionStatus
+NOWHERE: dict[str, Status] = {"undefined": "undefined", "missing": "missing", "preview": "undefined"}  # positionStatus
 
 
 def parse_mrk(path: Path, text: str, space: Space) -> Landmarks:
@@ -32,9 +35,10 @@ def parse_mrk(path: Path, text: str, space: Space) -> Landmarks:
         raise BadLandmarkFile(f"{path}, line {error.lineno}: not JSON ({error.msg})") from error
     except (RecursionError, ValueError) as error:
         raise BadLandmarkFile(f"{path} is not readable JSON ({error})") from error
-    schema = content.get("@schema") if isinstance(content, dict) else None
+    schema = content.get("@schema", "") if isinstance(content, dict) else None
     version = re.search(r"markups-schema-v(\d+)\.", schema) if isinstance(schema, str) else None
-    if version is None or version[1] != "1" or not isinstance(content.get("markups"), list):
+    known = schema == "" if version is None else version[1] == "1"
+    if not known or not isinstance(content.get("markups"), list):
         raise BadLandmarkFile(f"{path} is not a markups file of schema 1.x (its @schema is {schema!r:.80})")
     rows = Rows(path)
     for i, markup in enumerate(content["markups"]):
@@ -49,11 +53,11 @@ def mrk_text(landmarks: Landmarks, space: Space, columns: Columns) -> str:
             "id": str(i + 1),
             "label": name,
             "description": _described(columns, i),
-            "position": landmarks.positions[i].tolist(),
+            "position": np.nan_to_num(landmarks.positions[i]).tolist(),  # the schema wants numbers of all
             "selected": True,
             "locked": False,
             "visibility": True,
-            "positionStatus": "defined",
+            "positionStatus": landmarks.status[i],
         }
         for i, name in enumerate(landmarks.names)
     ]
@@ -83,15 +87,15 @@ def parse_fcsv(path: Path, text: str, space: Space) -> Landmarks:
         at = position(path, number, [cells[axis] for axis in "xyz"])
         rows.add(f"line {number}", unguarded(cells["label"]), at)
     landmarks = rows.landmarks()
-    return Landmarks(landmarks.names, turned(landmarks.at, given, space), landmarks.named)
+    return replace(landmarks, at=turned(landmarks.at, given, space))
 
 
 def fcsv_text(landmarks: Landmarks, space: Space, columns: Columns) -> str:
-    """Fiducials in the frame `space`; line ends in names become blanks, as a fiducial is a line."""
+    """Fiducials in the frame `space`, one a line; the format has no word for one without a place: left out."""
     head = f"# Markups fiducial file version = 4.13\n# CoordinateSystem = {space}\n# columns = {FCSV_COLUMNS}\n"
     rows: list[list[object]] = []
-    for i, name in enumerate(landmarks.names):
-        label = " ".join(name.split())
+    for i in np.flatnonzero(landmarks.defined).tolist():
+        label = " ".join(landmarks.names[i].split())
         place = landmarks.positions[i].tolist()
         rows.append([i + 1, *place, 0, 0, 0, 1, 1, 1, 0, label, _described(columns, i), ""])
     return head + table_text(rows)
@@ -113,8 +117,9 @@ def _read_markup(rows: Rows, where: str, markup: Any, space: Space) -> None:
         label = point.get("label", "")
         if not isinstance(label, str):
             refuse(f"controlPoints[{i}]: the label is no text")
-        if point.get("positionStatus", "defined") in NOWHERE:
-            rows.add(place, label, None)
+        status = point.get("positionStatus", "defined")
+        if isinstance(status, str) and status in NOWHERE:
+            rows.add(place, label, None, NOWHERE[status])
             continue
         at: Any = point.get("position")
         if not _is_position(at):

@@ -4,49 +4,53 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from gmds.files.table import table_text, unguarded
-from gmds.landmarks.files.named_points import SPACES, BadLandmarkFile, Landmarks, Space, turned
-from gmds.landmarks.files.reading import Rows, is_number, position, whole
+from gmds.landmarks.files.named_points import SPACES, BadLandmarkFile, Landmarks, Space, Specimens, turned
+from gmds.landmarks.files.reading import Rows, is_no_place, is_number, plain_number, position, whole
+from gmds.landmarks.files.wide_table import is_wide, parse_wide
 
 Columns = Mapping[str, Sequence[object]]
 
-NAMES = ("name", "label", "landmark")
+WORDS = {
+    "name": ("name", "label", "landmark", ""),  # R writes the names of rows under no title
+    "defined": ("defined",),
+    "specimen": ("specimen",),
+}
+UNDEFINED = ("0", "false")
+MISSING = "NA"  # what R, pandas and we read as a number that is missing
 VERTICES = ("vertex", "index")
 BARYCENTRIC = ("face", "w0", "w1", "w2")
 
 
-def parse_csv(path: Path, text: str, space: Space) -> Landmarks:
-    """Landmarks from a table; without a header the columns are as the package says."""
+def parse_csv(path: Path, text: str, space: Space) -> Landmarks | Specimens:
+    """Landmarks from a table, by specimen where it has several; without a header columns are as the package says."""
     table = _table(path, text)
     if not table:
         return Rows(path).landmarks()
     first, cells = table[0]
-    headed = not is_number(cells[-1])
+    headed = not (is_number(plain_number(cells[-1])) or is_no_place(cells[-1]))
     width = len(cells)
+    if is_wide(cells, headed):
+        return parse_wide(path, table[headed:], width)
     columns = _columns(path, first, cells) if headed else _usual_columns(path, first, width)
-    rows = Rows(path)
+    found: dict[str, Rows] = {}
     for line, row in table[headed:]:
         if len(row) != width:
             raise BadLandmarkFile(f"{path}, line {line}: {len(row)} entries where the first line has {width}")
         name = unguarded(row[columns["name"][0]]) if "name" in columns else None
-        at: list[float] | int | None = None
-        if "vertex" in columns:
-            at = whole(path, line, row[columns["vertex"][0]])
-        elif "face" in columns:
-            face, *weights = (row[i] for i in columns["face"])
-            at = [float(whole(path, line, face)), *position(path, line, weights)]
-        elif "defined" not in columns or row[columns["defined"][0]].strip() != "0":
-            at = position(path, line, [row[i] for i in columns["position"]])
-        rows.add(f"line {line}", name, at)
-    landmarks = rows.landmarks()
-    if "position" not in columns:
-        return landmarks
-    axes = "".join(cells[i].strip() for i in columns["position"]).upper() if headed else ""
+        specimen = unguarded(row[columns["specimen"][0]]).strip() if "specimen" in columns else ""
+        found.setdefault(specimen, Rows(path)).add(f"line {line}", name, _place(path, line, row, columns))
+    axes = "".join(cells[i].strip() for i in columns.get("position", ())).upper() if headed else ""
     given = axes if axes in SPACES else space
-    return Landmarks(landmarks.names, turned(landmarks.at, given, space), landmarks.named, landmarks.missing)
+    read = {specimen: rows.landmarks() for specimen, rows in (found or {"": Rows(path)}).items()}
+    if "position" in columns:
+        read = {specimen: replace(one, at=turned(one.at, given, space)) for specimen, one in read.items()}
+    return read if "specimen" in columns else read[""]
 
 
 def csv_text(landmarks: Landmarks, _: Space, columns: Columns) -> str:
@@ -54,11 +58,27 @@ def csv_text(landmarks: Landmarks, _: Space, columns: Columns) -> str:
     table = landmarks.at.reshape(len(landmarks), -1)
     titles = {1: ("vertex",), 3: ("x", "y", "z"), 4: BARYCENTRIC}[table.shape[1]]
     rows: list[list[object]] = [["name", *titles, *columns]]
-    for i, name in enumerate(landmarks.names):
-        first, *others = table[i].tolist()
-        place = [first if len(others) == 2 else int(first), *others]
+    for i, (name, there) in enumerate(zip(landmarks.names, landmarks.defined, strict=True)):
+        first, *others = table[i].tolist() if there else [MISSING] * len(titles)
+        place = [int(first) if there and len(others) != 2 else first, *others]
         rows.append([name, *place, *(values[i] for values in columns.values())])
     return table_text(rows)
+
+
+def _place(path: Path, line: int, row: list[str], columns: Mapping[str, tuple[int, ...]]) -> list[float] | int | None:
+    """Where the landmark of a row is; None when it says that it is nowhere."""
+    if "defined" in columns and row[columns["defined"][0]].strip().lower() in UNDEFINED:
+        return None
+    kind = next(kind for kind in ("vertex", "face", "position") if kind in columns)
+    words = [row[i] for i in columns[kind]]
+    if all(map(is_no_place, words)):
+        return None
+    if kind == "vertex":
+        return whole(path, line, words[0])
+    if kind == "face":
+        weights = position(path, line, words[1:])
+        return None if weights is None else [float(whole(path, line, words[0])), *weights]
+    return position(path, line, words)
 
 
 def _table(path: Path, text: str) -> list[tuple[int, list[str]]]:
@@ -67,17 +87,23 @@ def _table(path: Path, text: str) -> list[tuple[int, list[str]]]:
     skipped = next((i for i, line in enumerate(lines) if line.strip() and not line.startswith("#")), len(lines))
     body = "".join(lines[skipped:])
     head = body.split("\n", 1)[0]
-    reader = csv.reader(io.StringIO(body), delimiter=next((d for d in ",;\t" if d in head), ","), strict=True)
+    reader = csv.reader(io.StringIO(body), delimiter=_delimiter(head), strict=True)
     try:
         return [(skipped + reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
     except csv.Error as error:
         raise BadLandmarkFile(f"{path}, line {skipped + reader.line_num}: {error}") from error
 
 
+def _delimiter(line: str) -> str:
+    """What parts the cells of a line: a tab, else a semicolon unless there are more commas, which may be decimal."""
+    bare = re.sub('"[^"]*"', "", line)
+    return "\t" if "\t" in bare else ";" if bare.count(";") >= max(1, bare.count(",")) else ","
+
+
 def _columns(path: Path, line: int, cells: list[str]) -> dict[str, tuple[int, ...]]:
     """Which columns hold what, by their titles."""
     titles = [cell.strip().lower() for cell in cells]
-    places = {"name": _one_of(titles, NAMES), "defined": _one_of(titles, ("defined",))}
+    places = {key: _one_of(titles, words) for key, words in WORDS.items()}
     for axes in ("xyz", "lps", "ras"):
         if set(axes) <= set(titles):
             places["position"] = tuple(titles.index(axis) for axis in axes)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from landmark_texts import AT, HEAD, IN_SPACE, MARKS, markups, written
+from landmark_texts import AT, AVIZO, HEAD, IN_SPACE, MARKS, markups, written
 
 from gmds.errors import LandmarkError
 from gmds.landmarks.files import ENDINGS, BadLandmarkFile, Landmarks, paired, read_landmarks, write_landmarks
@@ -18,11 +18,15 @@ from gmds.landmarks.files import ENDINGS, BadLandmarkFile, Landmarks, paired, re
     [
         ("a.csv", "", "no landmarks"),
         ("a.csv", "name,x,y,z\n", "no landmarks"),
-        ("a.csv", "name,x,y,z\na,1,2,3\na,4,5,6\n", "line 3: 'a' is also the name of the landmark at line 2"),
         ("a.csv", "name,x,y,z\na,1,2\n", "line 2: 3 entries where the first line has 4"),
         ("a.csv", "name,x,y,z\na,1,2,nan\n", "line 2: 'nan' is not a number"),
         ("a.csv", "name,x,y,z\na,1,2,1e999\n", "line 2: a coordinate is too large"),
-        ("a.csv", "name;x;y;z\na;1,5;2;3\n", "line 2: '1,5' is not a number"),
+        ("a.csv", "name;x;y;z\na;1,5;2.5;3\n", "line 2: '1,5' is not a number"),
+        ("a.csv", "name;x;y;z\na;1,5,2;2;3\n", "line 2: '1,5,2' is not a number"),
+        ("a.csv", "name,x,y,z\na,NA,NA,NA\n", "none of its 1 landmarks has a place"),
+        ("a.csv", "name,x,y,z\na,1,NA,3\n", "line 2: 'NA' is not a number"),
+        ("a.csv", "s,1,2,3,4,5,6\nt,1,2,3\n", "line 2: 4 entries where the first line has 7"),
+        ("a.csv", "ID,X1,Y1,Z1,X2,Y2,Z2\n", "no landmarks"),
         ("a.csv", "name,x,y\na,1,2\n", "line 1: a header needs"),
         ("a.csv", "1,2,3,4,5\n", "line 1: 5 entries"),
         ("a.csv", "name,vertex\na,1.5\n", "line 2: '1.5' is not a whole number"),
@@ -40,22 +44,22 @@ from gmds.landmarks.files import ENDINGS, BadLandmarkFile, Landmarks, paired, re
         ("a.mrk.json", markups().replace('"controlPoints": []', '"controlPoints": {}'), "no list of controlPoints"),
         ("a.mrk.json", markups().replace('"markups": [{', '"markups": [3, {'), r"markups\[0\]: no list"),
         ("a.fcsv", "# columns = id,x,y\n", "line 1: the columns must hold"),
-        ("a.tps", "LM=2\n1 2\n3 4\n", "line 1: 'LM=2'"),
-        ("a.tps", "", "is empty"),
+        ("a.tps", "LM=2\n1 2\n3 4\n", "line 2: 2 coordinates"),
+        ("a.tps", "1 2 3\n", "line 1: '1 2 3'; a specimen in space begins with"),
+        ("a.tps", "", "holds no landmarks"),
         ("a.tps", "LM3=2\n1 2 3\n", "declares 2 landmarks and holds 1"),
-        ("a.tps", "LM3=2\n1 2 3\nID=7\n", "line 3: 1 coordinates"),
+        ("a.tps", "LM3=2\n1 2 3\nID=7\n", "line 3: it declares 2 landmarks and holds 1"),
         ("a.tps", "LM3=1\n1 2 3\n4 5 6\n", "line 3: '4 5 6' is one more"),
-        ("a.tps", "LM3=1\n1 2 3\nLM3=1\n1 2 3\n", "line 3: a second specimen"),
-        ("a.tps", "LM3=1\n1 2 3\nSCALE=0.5\n", "line 3: a scale"),
+        ("a.tps", "LM3=1\n1 2 3\nID=a\nLM3=1\n1 2 3\nID=b\n", "holds 2 specimens; say which: .*they are a, b"),
+        ("a.tps", "LM3=1\n1 2 3\nSCALE=-1\n", "line 3: the scale '-1'"),
         ("a.pts", "version: 1\nn_points: 2\n{\n1 2 3\n}\n", "declares 2 landmarks and holds 1"),
         ("a.pts", "version: 1\nn_points: 1\n{\n1 2\n}\n", "line 4: 2 coordinates"),
         ("a.pts", "version: 1\nn_points: 1\n1 2 3\n", "between lines with {"),
         ("a.pts", "version: 1\n", "count of landmarks must follow"),
         ("a.pts", "Version 1.0\nmany\n", "line 2: 'many' is not a whole number"),
-        ("a.tps", "LM3=1\n1 2 3\nCURVES=1\n", "line 3: curves"),
-        ("a.tps", "LM3=1\n1 2 3\nPOINTS=4\n", "line 3: curves"),
-        ("a.tps", "LM3=1\n1 2 3\nSCALE=mm\n", "line 3: a scale"),
-        ("a.tps", "LM3=1\n1 2 3\nlm=0\n", "line 3: a second specimen"),
+        ("a.tps", "LM3=1\n1 2 3\nPOINTS=4\n", "line 3: it declares 5 landmarks and holds 1"),
+        ("a.tps", "LM3=1\n1 2 3\nSCALE=mm\n", "line 3: the scale 'mm'"),
+        ("a.tps", "LM3=1\n1 2 3\nlm=0\n", "holds no landmarks"),
         ("a.tps", "LM3=many\n1 2 3\n", "line 1: 'many' is not a whole number"),
         ("a.tps", "LM3=0\n", "holds no landmarks"),
         ("a.pts", "version: 1\nn_points: 1 2\n{\n1 2 3\n}\n", "line 2: n_points: and a count"),
@@ -79,7 +83,23 @@ from gmds.landmarks.files import ENDINGS, BadLandmarkFile, Landmarks, paired, re
         ("a.mrk.json", markups({"label": "b", "position": [1, 2, True]}), "three finite numbers"),
         ("a.mrk.json", markups({"label": 3, "position": [1, 2, 3]}), "label is no text"),
         ("a.mrk.json", markups(3), "is no object"),
-        ("a.json", "{}", "files that end in"),
+        ("a.json", "{}", "not a markups file"),
+        ("a.docx", "{}", "files that end in"),
+        ("a.pp", "<PickedPoints>", "no XML"),
+        ("a.pp", "<Points/>", "holds no PickedPoints"),
+        ("a.pp", "<PickedPoints/>", "holds no landmarks"),
+        ("a.pp", '<PickedPoints>\n<point x="1" y="2"/></PickedPoints>', "line 2: '\\?' is not a number"),
+        ("a.pp", '<!DOCTYPE P [<!ENTITY a "aa">]><PickedPoints/>', "line 1: it declares entities"),
+        ("a.pp", '<!DOCTYPE P [<!ENTITY a SYSTEM "/etc/hostname">]><PickedPoints>&a;</PickedPoints>', "entities"),
+        ("a.nts", "1 2 3 4\n", "no parameter line"),
+        ("a.nts", "1 2 4 0 dim=2\n1 2 3 4 5 6 7 8\n", "line 1: landmarks in 2 dimensions"),
+        ("a.nts", "1 2 6 0 dim=3\n1 2 3 4 5 6 7\n", "7 numbers where 2 times 6 are declared"),
+        ("a.landmarkAscii", "1 2 3\n", "does not begin as a text file of Avizo"),
+        ("a.landmarkAscii", "# Avizo 3D ASCII 2.0\n", "is no landmark set"),
+        ("a.landmarkAscii", AVIZO.replace("Markers 2", "Markers 3"), "declares 3 landmarks and section @1 holds 2"),
+        ("a.landmarkAscii", AVIZO.replace("\n@1", "\n@2"), "no data section @1"),
+        ("a.xyz", "2\n1 2 3\n", "declares 2 landmarks and holds 1"),
+        ("a.xyz", "1 2\n", "line 1: 2 coordinates"),
     ],
 )
 def test_errors_name_file_and_line(tmp_path: Path, name: str, text: str, message: str) -> None:
@@ -127,8 +147,6 @@ def test_pairing_by_name_else_by_order() -> None:
         paired(a, Landmarks.unnamed(np.array([7])))
     with pytest.raises(LandmarkError, match="share no name: 'p', 'q', 'r' on the source, 'x' on the target"):
         paired(a, Landmarks(("x",), np.array([7])))
-    with pytest.raises(BadLandmarkFile, match="more than one landmark is called 'x'"):
-        Landmarks(("x", "x"), np.array([1, 2]))
 
 
 def test_landmarks_have_a_name_and_a_place_each_and_keep_them() -> None:
@@ -145,6 +163,10 @@ def test_landmarks_have_a_name_and_a_place_each_and_keep_them() -> None:
     marks = Landmarks.unnamed(at)
     at[0] = 0
     assert marks.positions.tolist() == [[1, 2, 3]] and not marks.named and marks.missing == ()
+    with pytest.raises(BadLandmarkFile, match="1 words of status for 2 landmarks"):
+        Landmarks(("a", "b"), np.array([1, 2]), status=("defined",))
+    with pytest.raises(BadLandmarkFile, match="or one without place"):
+        Landmarks(("a",), np.array([[np.nan, 1, 2]]), status=("defined",))
     with pytest.raises(ValueError, match="read-only"):
         marks.at[0] = 0
     with pytest.raises(LandmarkError, match=r"'a', 'b', 'c', \.\.\. on the source"):

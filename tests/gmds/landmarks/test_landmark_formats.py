@@ -69,7 +69,7 @@ def test_the_other_frame_turns_x_and_y(tmp_path: Path, ending: str) -> None:
         ("a.csv", "1,2,3\n4,5,6\n", ("1", "2"), [1, 2, 3]),
         ("a.csv", "# by hand\n\nnose,1,2,3\n", ("nose",), [1, 2, 3]),
         ("a.csv", "z;label;y;x;note\n3;nose;2;1;hm\n", ("nose",), [1, 2, 3]),
-        ("a.csv", "label,l,p,s,defined\nnose,1,2,3,1\near,0,0,0,0\n", ("nose",), [1, 2, 3]),
+        ("a.csv", "label,l,p,s,defined\nnose,1,2,3,1\near,0,0,0,0\n", ("nose", "ear"), [1, 2, 3]),
         ("a.csv", "label,r,a,s\nnose,1,2,3\n", ("nose",), [-1, -2, 3]),
         ("a.csv", "name,vertex\nnose,7\n", ("nose",), 7),
         ("a.csv", "nose,7\n", ("nose",), 7),
@@ -117,10 +117,11 @@ def test_points_without_a_place_are_told(tmp_path: Path, status: str) -> None:
     there = {"label": "a", "position": [1, 2, 3], "positionStatus": "defined"}
     nowhere = {"label": "b", "position": None, "positionStatus": status}
     found = read_landmarks(written(tmp_path, "a.mrk.json", markups(nowhere, there)))
-    assert (found.names, found.missing, found.named) == (("a",), ("b",), True)
+    assert (found.names, found.missing, found.named) == (("b", "a"), ("b",), True)
+    assert found.status == ("missing" if status == "missing" else "undefined", "defined")
     there["label"] = nowhere["label"] = ""
-    with pytest.raises(BadLandmarkFile, match="landmark 2 has no place, and without names"):
-        read_landmarks(written(tmp_path, "a.mrk.json", markups(there, nowhere, there)))
+    found = read_landmarks(written(tmp_path, "a.mrk.json", markups(there, nowhere, there)))
+    assert found.defined.tolist() == [True, False, True] and not found.named and found.missing == ("2",)
 
 
 def test_fiducials_are_written_as_slicer_writes_them(tmp_path: Path) -> None:

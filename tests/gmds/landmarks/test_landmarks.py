@@ -62,7 +62,7 @@ REFUSED: list[tuple[str, Any, str]] = [
     ("E301", [[3, 5], [A.n_vertices, 1]], "landmark 1"),
     ("E301", [[3, 5], [10, -1]], "landmark 1"),
     ("E301", [[3, 5], [10, 2**62]], "target"),
-    ("E302", [[3, 5], [10, 1], [3, 7]], "landmarks 0 and 2"),
+    ("E302", [[3, 5], [10, 1], [3, 7]], "landmark 0 (counted from 0) and landmark 2"),
     ("E302", [[3, 5], [10, 5]], "of the target"),
     ("E302", (A.vertices[[1, 2, 1]], [1, 2, 3]), "of the source"),
     ("E303", (np.arange(4), np.arange(3)), "4 landmarks on the source but 3"),
@@ -83,7 +83,7 @@ REFUSED: list[tuple[str, Any, str]] = [
     ("E301", ([[0, 1, 0, 0], [A.n_faces, 1, 0, 0]], [1, 2]), "faces 0 to 319"),
     *[("E301", ([[face, 1, 0, 0]], [1]), "the source has faces") for face in (0.5, -1, np.nan, np.inf)],
     ("E300", ([[0, 0.7, 0.7, 0]], [1]), "barycentric weights of the source"),
-    ("E302", ([[0, 0.5, 0.5, 0], [0, 0.5, 0.5, 0]], [1, 2]), "landmarks 0 and 1"),
+    ("E302", ([[0, 0.5, 0.5, 0], [0, 0.5, 0.5, 0]], [1, 2]), "landmark 0 (counted from 0) and landmark 1"),
     ("E300", SoftLandmarks(PAIRS, [0.1, 0.2]), "or 3 of them"),
     ("E300", SoftLandmarks(PAIRS, -0.1), "0 or a positive number"),
     ("E300", SoftLandmarks(PAIRS, np.nan), "0 or a positive number"),
@@ -102,7 +102,7 @@ def test_v17_v18_refused(code: str, given: Any, says: str) -> None:
 
 
 def test_v17_a_vertex_on_no_face() -> None:
-    with pytest.raises(LandmarkError, match=r"E304: landmark 1: vertex 0 of the source"):
+    with pytest.raises(LandmarkError, match=r"E304: landmark 1 \(counted from 0\): vertex 0 of the source"):
         check_landmarks([[1, 1], [0, 2]], LONELY, B)
 
 
@@ -126,7 +126,7 @@ def test_v18_five_percent_of_the_diagonal_of_the_surface_is_the_most() -> None:
         placed = place_landmarks((index, mesh.vertices[index] + [[0.049], [0], [0.02]] * out), mesh, mesh)
         assert placed.notes[0].indices == (0, 2) and "by up to 4.90% of" in placed.notes[0].message
         assert "of the target" in placed.notes[0].message
-        with pytest.raises(LandmarkError, match=r"E305: landmark 1 lies 5\.1%"):
+        with pytest.raises(LandmarkError, match=r"E305: landmark 1 \(counted from 0\) lies 5\.1%"):
             place_landmarks((index, mesh.vertices[index] + [[0.049], [0.051], [0.0]] * out), mesh, mesh)
 
 
