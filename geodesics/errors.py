@@ -180,6 +180,12 @@ class MissingExtra(_Coded, ImportError):
     code = "E602"
 
 
+class SingularMatrix(_Coded, RuntimeError):
+    """A linear system has no unique solution, however little of it is rounding: vertices coincide or lie on lines."""
+
+    code = "E404"
+
+
 class EigensolverFailed(_Coded, RuntimeError):
     """The eigenvalue iteration did not converge, or the matrix could not be factorised."""
 

@@ -127,6 +127,15 @@ class PairTimeout(Exception):
     code = "E504"
 
 
+class WorkersNotStarted(RuntimeError):
+    """The worker processes of a batch died as they started, again and again."""
+
+    code = "E506"
+
+    def __str__(self) -> str:
+        return f"{self.code}: {super().__str__()}"
+
+
 class RenderingError(RuntimeError):
     """Nothing can be drawn by the renderer that was asked for; the message says why and what to do."""
 

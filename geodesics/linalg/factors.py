@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import scipy.sparse as sp
 import scipy.sparse.linalg as sla
 
 from geodesics._kernels.substitution import WIDTH, Triangle, substitute
 from geodesics.arrays import Floats
+from geodesics.errors import SingularMatrix
 from geodesics.linalg.dissection import nested_dissection
 
 # Rows from which matrices are put in the order of nested dissection. With the time for the order it is as fast as
 # minimum degree at 80,000 rows already (0.66 against 0.73 s), but makes 1.7 times as many entries there.
 LARGE = 200_000
+# Shares of the diagonal by which it is raised where rounding left nothing of a pivot. The first is the rounding error
+# of a row, the last its root, beyond which solutions would be of another problem.
+RAISES = (0.0, 1e-14, 1e-11, 1e-8)
 
 
 class Factors:
@@ -23,7 +29,7 @@ class Factors:
         self.order = nested_dissection(matrix) if n >= LARGE else np.arange(n)
         if n >= LARGE:
             matrix = matrix.tocsr()[self.order][:, self.order]
-        self.lu = sla.splu(
+        self.lu = lu_factors(
             matrix.tocsc(),
             permc_spec="NATURAL" if n >= LARGE else "MMD_AT_PLUS_A",
             diag_pivot_thresh=0.0,
@@ -40,13 +46,28 @@ class Factors:
 def factorised(matrix: sp.spmatrix) -> Factors:
     """LU factors of a symmetric positive definite matrix in symmetric mode: half the fill of the general ordering.
 
-    Where rounding leaves a matrix with stiff parts (vertices that all but coincide) singular, its diagonal is raised
-    by 1e-14 of itself. Raises `RuntimeError` when that is not enough.
+    As `lu_factors`, it raises `SingularMatrix` (E404).
     """
-    try:
-        return Factors(matrix)
-    except RuntimeError:
-        return Factors(matrix + 1e-14 * sp.diags(matrix.diagonal()))
+    return Factors(matrix)
+
+
+def lu_factors(matrix: sp.csc_matrix, **options: Any) -> Any:
+    """What `scipy.sparse.linalg.splu` makes of a symmetric positive definite matrix (n, n), with the options of that.
+
+    Where rounding leaves a matrix with stiff parts (vertices that all but coincide) singular, its diagonal is raised by
+    as little of itself, and of its median, as helps. Raises `SingularMatrix` (E404) when nothing does.
+    """
+    diagonal = matrix.diagonal()
+    for share in RAISES:
+        raised = matrix if share == 0 else (matrix + share * sp.diags(diagonal + np.median(diagonal))).tocsc()
+        try:
+            return sla.splu(raised, **options)
+        except RuntimeError as error:
+            reason = error
+    raise SingularMatrix(
+        f"a system of {len(diagonal)} unknowns cannot be solved ({reason}): vertices coincide or lie on lines; "
+        "weld and simplify the mesh, or store its coordinates with more digits"
+    ) from reason
 
 
 class Inverse:

@@ -7,6 +7,7 @@ import scipy.linalg
 
 from geodesics.arrays import Floats
 
+NOTHING = 1e-20  # length of an image beside the longest that is none: a bound, far below what rounding leaves
 _LONGEST = 6  # steps without reorthogonalisation. Not sensitive: 2 to 20 give the same eigenvalues to 5e-15 of the last
 _SHARE = (
     3  # a third of the capacity is allocated first, which is usually enough. Not sensitive: 1 to 5 take the same time
@@ -32,7 +33,7 @@ class KrylovBasis:
         self._columns[:, :block] = np.linalg.qr(self._random.standard_normal((n, block)))[0]
         self._projected = np.zeros((capacity + block, capacity + block))  # block tridiagonal, lower half
         self._link = np.zeros((block, block))
-        self._since, self._period = 0, 2
+        self._since, self._period, self._longest = 0, 2, 0.0
 
     def room(self) -> bool:
         """True while there is room for another block."""
@@ -84,7 +85,10 @@ class KrylovBasis:
         pair = self._columns[:, size - b : size + b]
         lost = np.abs(_removed(pair, self._columns[:, : size - b])).max()
         _removed(pair[:, b:], pair[:, :b])
-        pair[:, b:] = _factored(pair[:, b:])[0]
+        try:
+            pair[:, b:] = _factored(pair[:, b:])[0]
+        except np.linalg.LinAlgError:
+            pair[:, b:] = np.linalg.qr(pair[:, b:])[0]
         eps = np.finfo(float).eps
         pace = max(np.log(lost / eps) / self._since, 1e-3) if lost > eps else 1e-3
         longest = min(self._period + 1, _LONGEST)
@@ -92,7 +96,11 @@ class KrylovBasis:
 
     def _orthonormal(self, image: Floats, length: float) -> tuple[Floats, Floats]:
         """The image as an orthonormal block times a triangular factor; `length` is what it had before."""
+        self._longest = max(self._longest, length)
+        nothing = NOTHING * self._longest
         try:
+            if length <= nothing:
+                raise np.linalg.LinAlgError
             block, link = _factored(image)
             new = np.diag(link).min() / length
             if new > 1e-6:
@@ -105,7 +113,7 @@ class KrylovBasis:
         basis = self._columns[:, : self.size]
         _removed(image, basis)
         block, link = np.linalg.qr(image)
-        lost = np.abs(np.diag(link)) <= 1e-13 * max(length, np.finfo(float).tiny)
+        lost = np.abs(np.diag(link)) <= max(1e-13 * length, nothing, np.finfo(float).tiny)
         block[:, lost] = self._random.standard_normal((len(image), np.count_nonzero(lost)))
         for _ in range(2):
             _removed(block, basis)

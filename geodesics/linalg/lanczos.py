@@ -11,6 +11,8 @@ from geodesics.errors import EigensolverFailed
 from geodesics.linalg.factors import Inverse, factorised
 from geodesics.linalg.krylov import KrylovBasis
 
+LAST_RESORT = 2000  # rows up to which a dense solver, which takes seconds there, tries what Lanczos gave up
+SHIFTS = (1.0, 1e-3, 1e-6)  # shares of the shift that are tried in turn; set by hand
 _BLOCK = 8  # columns; finds eigenvalues of this multiplicity, and finite groups of rotations give at most 5
 _DENSE = (
     400  # rows; smaller matrices go to a dense solver. Measured with 60 eigenpairs: equally fast at 600 to 800 rows
@@ -46,13 +48,14 @@ def _of_one_part(matrix: sp.csc_matrix, count: int, shift: float, tolerance: flo
     dense = n < _DENSE or 4 * count > n
     if dense and matrix.diagonal().max() < 1e9:
         return scipy.linalg.eigh(matrix.toarray(), subset_by_index=(0, count - 1))
-    shift = 1e-2 if dense else shift
-    try:
-        inverse = Inverse(factorised(matrix + shift * sp.identity(n)))
-    except RuntimeError as error:
-        raise EigensolverFailed(f"the matrix of {n} vertices could not be factorised ({error})") from error
     if not dense:
-        return _by_lanczos(inverse, n, count, shift, tolerance)
+        try:
+            return _with_smaller_shifts(matrix, count, shift, tolerance)
+        except EigensolverFailed:
+            if n > LAST_RESORT:
+                raise
+    shift = 1e-2
+    inverse = _inverse(matrix, shift)
     # stiff (vertices all but coincide): rounding would drown the small eigenvalues, not those of the inverse
     full = inverse.solve(np.eye(n))
     values, vectors = scipy.linalg.eigh((full + full.T) / 2, subset_by_index=(n - count, n - 1))
@@ -60,8 +63,34 @@ def _of_one_part(matrix: sp.csc_matrix, count: int, shift: float, tolerance: flo
     return 1 / values - shift, vectors[:, ::-1]
 
 
+def _with_smaller_shifts(matrix: sp.csc_matrix, count: int, shift: float, tolerance: float) -> tuple[Floats, Floats]:
+    """By Lanczos, with a smaller shift where eigenvalues crowd at zero: a surface much longer than wide has such."""
+    for factor in SHIFTS:
+        try:
+            return _by_lanczos(_inverse(matrix, factor * shift), matrix.shape[0], count, factor * shift, tolerance)
+        except EigensolverFailed as error:
+            failed = error
+    raise failed
+
+
+def _inverse(matrix: sp.csc_matrix, shift: float) -> Inverse:
+    n = matrix.shape[0]
+    try:
+        return Inverse(factorised(matrix + shift * sp.identity(n)))
+    except RuntimeError as error:
+        raise EigensolverFailed(f"the matrix of {n} vertices could not be factorised ({error})") from error
+
+
 def _by_lanczos(inverse: Inverse, n: int, count: int, shift: float, tolerance: float) -> tuple[Floats, Floats]:
     """Smallest eigenpairs from the largest of the inverse, in a Krylov space that grows until it holds them."""
+    try:
+        with np.errstate(all="ignore"):  # an exhausted space shows in what comes of it
+            return _iterated(inverse, n, count, shift, tolerance)
+    except (np.linalg.LinAlgError, ValueError) as error:  # what is no number any more, or no basis
+        raise EigensolverFailed(f"the {count} smallest eigenpairs of {n} vertices: {error}") from error
+
+
+def _iterated(inverse: Inverse, n: int, count: int, shift: float, tolerance: float) -> tuple[Floats, Floats]:
     krylov = KrylovBasis(n, _BLOCK, min(n - _BLOCK, 8 * count + 50 * _BLOCK), min(1e-9, 1e-2 * tolerance))
     check = 5 * count // 2 + 2 * _BLOCK
     while krylov.room():

@@ -1,4 +1,4 @@
-"""One run at a time in a folder."""
+"""One run at a time in a folder, and what several may share."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from typing import IO
 from gmds.errors import FolderInUse
 
 NAME = ".lock"
+LEFT_OVER = (".gmds-*.tmp", ".*.late")  # by processes that were killed
 
 
 @contextlib.contextmanager
@@ -34,6 +35,37 @@ def only_run(folder: Path) -> Iterator[None]:
         file.write(f"process {os.getpid()} on {socket.gethostname()}, since {time.strftime('%Y-%m-%d %H:%M:%S')},")
         file.flush()
         yield
+
+
+@contextlib.contextmanager
+def cleared(folder: Path) -> Iterator[None]:
+    """The block, while other runs see that this folder is in use; if none was in it, without what killed ones left.
+
+    Several runs may share a folder, each by a symbolic link of its own. The system frees it when the process ends.
+    Where it has no locks of folders, as on some network drives, nothing is removed.
+    """
+    if sys.platform == "win32":  # where files that are being written cannot be removed anyway
+        _clear(folder)
+        yield
+        return
+    import fcntl
+
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        with contextlib.suppress(OSError):
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            _clear(folder)
+        with contextlib.suppress(OSError):
+            fcntl.flock(descriptor, fcntl.LOCK_SH)  # waits for a run that is just clearing
+        yield
+    finally:
+        os.close(descriptor)
+
+
+def _clear(folder: Path) -> None:
+    for left in (path for kind in LEFT_OVER for path in folder.glob(kind)):
+        with contextlib.suppress(FileNotFoundError, PermissionError):
+            left.unlink()
 
 
 def _lock(file: IO[str]) -> None:

@@ -13,10 +13,11 @@ from gmds.batch.agreement import agreement, write_cycles
 from gmds.batch.collection import Collection, Given
 from gmds.batch.cycles import Consistency
 from gmds.batch.existing_maps import Expected, pair_record
-from gmds.batch.lock import only_run
+from gmds.batch.lock import cleared, only_run
 from gmds.batch.manifest import Manifest, event, write_summary
 from gmds.batch.pair_choice import Choice, Pairs
 from gmds.batch.records import WITHOUT_MAP, Batch, Failure, PairRecord, ShapeRecord
+from gmds.batch.starting import end_if_starting
 from gmds.batch.store import Store
 from gmds.batch.tasks import PairJob, ShapeJob, match_pair, measure_shape
 from gmds.batch.workers import local_client, outcomes
@@ -28,7 +29,6 @@ from gmds.suggestions import check_keys
 Progress = Callable[[str, float], None]
 
 OPTIONS = ("distance", "loss", "n_samples", "orientation", "parts", "rng")
-LEFT_OVER = ("*/.gmds-*.tmp", "pairs/.*.late")  # by processes that were killed
 MEASURING, CYCLES = 0.1, 0.02  # shares of the bar of progress, about those of the time; set by hand
 
 
@@ -80,11 +80,14 @@ def match_collection(
         When there is nothing to match.
     MissingExtra
         E602, without dask.
+    WorkersNotStarted
+        E506, when the processes of this machine die as they start.
 
     See Also
     --------
     match : One pair.
     """
+    end_if_starting()
     check_keys(options, OPTIONS, "match_collection()")
     if not is_lasting(options.get("distance")):
         raise ValueError("the distance needs a name that lasts: a function of a module, or functools.partial of one")
@@ -95,6 +98,8 @@ def match_collection(
     with only_run(folder), contextlib.ExitStack() as stack:
         if not hasattr(client, "submit"):
             client = stack.enter_context(client or local_client())
+        for kept in ("pairs", "shapes"):
+            stack.enter_context(cleared(folder / kept))
         run = _Run(collection, folder, options, timeout, progress or (lambda stage, fraction: None))
         stack.callback(run.manifest.close)
         stack.callback(run.summarise)
@@ -117,8 +122,6 @@ class _Run:
     consistency: Consistency = field(default_factory=lambda: Consistency(()))
 
     def __post_init__(self) -> None:
-        for left in (path for kind in LEFT_OVER for path in self.folder.glob(kind)):
-            left.unlink(missing_ok=True)
         self.manifest = Manifest(self.folder / "manifest.jsonl")
         self.parameters = {
             **method_in_words(self.options.get("distance"), self.options.get("loss") or LeastSquares()),

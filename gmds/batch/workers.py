@@ -13,6 +13,7 @@ from typing import Any, TypeVar
 
 from geodesics.errors import MissingExtra
 from gmds.batch.records import WORKER_DIED, Failure
+from gmds.batch.starting import end_if_starting, local_cluster
 
 Job = TypeVar("Job")
 Result = TypeVar("Result")
@@ -30,8 +31,9 @@ def local_client(workers: int | None = None) -> Iterator[Any]:
     """A client of a cluster on this machine: one process and thread for each processor, or as many as `workers`.
 
     Together they may take the memory there is; one that takes more than its share is ended and replaced.
-    Raises `MissingExtra` (E602).
+    Raises `MissingExtra` (E602), `WorkersNotStarted` (E506).
     """
+    end_if_starting()
     distributed = _distributed()
     import dask
 
@@ -41,14 +43,7 @@ def local_client(workers: int | None = None) -> Iterator[Any]:
     }
     with contextlib.ExitStack() as stack:
         stack.enter_context(dask.config.set(settings))
-        cluster = distributed.LocalCluster(
-            n_workers=workers,
-            threads_per_worker=1,
-            env={"GMDS_THREADS": "1"},  # there is a worker for every processor
-            processes=True,
-            dashboard_address="127.0.0.1:0",  # any port: others may run on this machine
-            silence_logs=logging.CRITICAL,
-        )
+        cluster = local_cluster(distributed, workers)
         client = stack.enter_context(distributed.Client(stack.enter_context(cluster)))
         try:
             client.register_worker_callbacks(_ignore_interrupts)

@@ -88,6 +88,8 @@ def _errors_as_exit_codes(debug: bool) -> Iterator[None]:
     except (ValueError, ArithmeticError, ImportError, MemoryError) as error:
         _fail_or_show(error, debug)
     except Exception as error:
+        if isinstance(getattr(error, "code", None), str):  # it begins with its code, whatever its kind
+            _fail_or_show(error, debug)
         if debug:
             raise
         _fail(f"internal error: {type(error).__name__}: {error} (run again with --debug and report it)", BAD_INPUT)

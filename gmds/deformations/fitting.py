@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import scipy.sparse as sp
-import scipy.sparse.linalg as sla
 
 from geodesics import Mesh, intrinsic
 from geodesics.arrays import Floats, Integers
+from geodesics.linalg.factors import lu_factors
 
 
 def fit(
@@ -37,7 +37,7 @@ def fit(
     held = np.bincount(handles, minlength=n).astype(float).clip(max=1) * stiff
     # a light pull to the old places pins components without handles; it vanishes beside the edges
     pin = 1e-9 * system.diagonal().mean()
-    solve = sla.splu((system + sp.diags(held + pin)).tocsc()).solve
+    solve = lu_factors((system + sp.diags(held + pin)).tocsc()).solve
     fixed = pin * p
     fixed[handles] += stiff * places
     x = solve(difference.T @ edge.reshape(-1, 3) + fixed)

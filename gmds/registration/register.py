@@ -14,6 +14,7 @@ from gmds.registration.deformable import DeformableMesh
 from gmds.registration.residuals import Residuals
 from gmds.registration.settings import AFTER_RETURN, WAY_BACK, RegistrationSettings
 
+LEAST_AREA = 1e-30  # of a vertex, below which it has none: a bound, so that energies per area stay numbers
 GIVEN_TIME = 1e-3  # heat time, in units of the area, that smooths the given map before anything is fitted; set by hand
 
 
@@ -130,7 +131,7 @@ def assessed(source: DeformableMesh, target: DeformableMesh, y: Floats, settings
         curvature_back=correlation(there, source.curvature[back], closest.weight_back),
         landmarks=0.0 if source.anchors is None else source.anchors.neg_log_likelihood(y),
     )
-    return Registered(y, points, value / np.maximum(source.areas, np.finfo(float).tiny), residuals)
+    return Registered(y, points, value / np.maximum(source.areas, LEAST_AREA), residuals)
 
 
 def both_ways(

@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
-import scipy.sparse.linalg as sla
 
 from geodesics.arrays import Floats, Integers
 from geodesics.caching import cached_property, memoized
+from geodesics.linalg.factors import lu_factors
 
 Solver = Callable[[Floats], Floats]
 
@@ -34,7 +34,7 @@ class StiffnessSystem:
     def _ordered(self) -> tuple[Integers, sp.csc_matrix, Integers]:
         """An order (n,) of the vertices with little fill-in, K in that order, and where its diagonal is stored."""
         filled = (self.matrix + sp.identity(len(self.areas))).tocsc()
-        columns_first = sla.splu(filled, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, **SUPERNODES).perm_c
+        columns_first = lu_factors(filled, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, **SUPERNODES).perm_c
         order = np.argsort(columns_first)
         rest = (filled[order][:, order]).tocsc()
         rest.sort_indices()
@@ -49,7 +49,7 @@ class StiffnessSystem:
         matrix = rest.copy()
         matrix.data *= stiffness_weight
         matrix.data[diagonal] += weights[order] + FAINT
-        solve = sla.splu(matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0, **SUPERNODES).solve
+        solve = lu_factors(matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0, **SUPERNODES).solve
 
         def unordered(right_hand_side: Floats) -> Floats:
             result = np.empty_like(right_hand_side)

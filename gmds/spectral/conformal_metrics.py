@@ -15,11 +15,11 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.linalg
 import scipy.sparse as sp
-import scipy.sparse.linalg as sla
 
 from geodesics import Spectrum, embedded, stiffness
 from geodesics.arrays import Floats
 from geodesics.caching import cached_property, memoized
+from geodesics.linalg.factors import lu_factors
 from gmds.surface.measured import Surface
 from gmds.surface.view import View
 
@@ -63,7 +63,7 @@ class ConformalClass:
         used = self.surface.regular.usable
         mass = sp.diags(self.surface.areas[used])
         weights = stiffness(embedded(self.surface.mesh))[used][:, used]
-        return sla.splu((mass + time * weights).tocsc()).solve  # type: ignore[no-any-return]
+        return lu_factors((mass + time * weights).tocsc()).solve  # type: ignore[no-any-return]
 
     def density(self, amounts: Floats, time: float) -> Floats:
         """Amounts (n,) per area (n,), both smoothed by one implicit heat step of `time`, in units of the area."""

@@ -121,9 +121,11 @@ def measure(mesh: Mesh, *, reflected: bool = False) -> Surface:
     kept = np.flatnonzero(largest_component(mesh))
     kept = kept[np.argsort(-area[kept], kind="stable")]  # the order of the faces in the file is to have no say
     used = np.unique(mesh.faces[kept])
-    if len(used) < FEWEST_VERTICES:
+    places = len(used) if len(used) < FEWEST_VERTICES else len(np.unique(mesh.vertices[used], axis=0))
+    if places < FEWEST_VERTICES:
+        what = f"{len(used)} vertices" if places == len(used) else f"{len(used)} vertices in {places} places"
         raise TooFewVertices(
-            f"the largest part of {mesh!r} has {len(used)} vertices; matching needs {FEWEST_VERTICES}; refine the mesh"
+            f"the largest part of {mesh!r} has {what}; matching needs {FEWEST_VERTICES}; refine the mesh"
         )
     shift = mesh.vertices[used].mean(axis=0)
     place, faces = (mesh.vertices - shift) / np.sqrt(component_areas(mesh).max()), mesh.faces[kept]

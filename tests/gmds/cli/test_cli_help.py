@@ -16,7 +16,7 @@ from click.testing import CliRunner, Result
 
 import geodesics
 import gmds
-from geodesics.errors import MissingExtra
+from geodesics.errors import EigensolverFailed, MissingExtra
 from gmds.cli import main
 from gmds.errors import LandmarkError, MapMismatch, SolverError
 
@@ -70,6 +70,7 @@ ERRORS = [
     (PermissionError(errno.EACCES, "Permission denied", "map.npz"), 1, "map.npz: Permission denied"),
     (OSError(errno.ENOSPC, "No space left on device"), 1, "No space left"),
     (MemoryError(), 1, "MemoryError"),
+    (EigensolverFailed("no pairs"), 1, "E402: no pairs"),
     (RuntimeError("a bug"), 1, "internal error: RuntimeError: a bug"),
     (click.UsageError("--from is needed"), 2, "--from is needed"),
     (KeyboardInterrupt(), 130, "interrupted"),
