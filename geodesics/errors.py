@@ -157,9 +157,15 @@ class LineTooLong(FormatError):
 
 
 class BadContainer(FormatError):
-    """A GLB file whose parts disagree, or that does not hold exactly one mesh."""
+    """A GLB, VTP or GIFTI file whose parts disagree, or are compressed in a way that is not supported."""
 
     code = "E209"
+
+
+class InflatesTooFar(FormatError):
+    """Far more comes out of a compressed file, or a part of one, than a mesh takes; it is not unpacked."""
+
+    code = "E221"
 
 
 class ExternalReference(FormatError):

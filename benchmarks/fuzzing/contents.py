@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from file_cases import OBJ_V, READ
 from generated_shapes import bumpy_sphere, icosphere
+from other_formats import NEURO, OTHERS
 
 from geodesics import SurfacePoints
 from gmds import __version__
@@ -28,6 +29,7 @@ Contents = list[bytes]
 
 SOURCE, TARGET = icosphere(0), icosphere(1)
 UV = OBJ_V + "vt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/2\nf 1/1 4/2 2/2\nf 2/2 4/2 3/3\n"
+POLYGONS = "v 1 2 0\nv 0 2 0\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0.1\nv 3 3 3\nf 1 2 3 4 5 6\nf 6 5 7\nf 1 6 4 7\n"
 LISTED = json.dumps([{"name": "a", "source": "s/a.off", "target": "s/b.off", "truth": "a.npz", "group": "self"}])
 SPECIMENS = {
     ".tps": ("LM3=2\n1 2 3\nNA NA NA\nID=fox\nSCALE=0.5\n\nLM3=2\n1 2 3\n4 5 6\nIMAGE=cow.ply\n",),
@@ -61,7 +63,7 @@ def of_text(*texts: str | bytes) -> Callable[[], Contents]:
 
 def of_cases(*names: str) -> Callable[[], Contents]:
     """Legal files of the tests, by their name."""
-    by_name = {name: content for _, name, content in READ}
+    by_name = {name: content for _, name, content in [*READ, *OTHERS, *NEURO]}
     return of_text(*(by_name[name] for name in names))
 
 

@@ -6,6 +6,7 @@ MATLAB files are not among them: damaged ones end the process that reads them, w
 from __future__ import annotations
 
 import functools
+import gzip
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -16,6 +17,7 @@ from file_cases import F_TEXT, OBJ, OFF, PLY, STL, STL_BINARY, V_TEXT, binary_pl
 
 from benchmarks.fuzzing.contents import (
     LISTED,
+    POLYGONS,
     SETTINGS,
     SOURCE,
     SPECIMENS,
@@ -122,7 +124,39 @@ MESHES: Mapping[str, Target] = {
     "PLY, binary": Target(read_mesh, "b.ply", of_text(binary_ply(extra=True), binary_ply(">")), _mesh_holds),
     "STL, text": Target(read_mesh, "a.stl", lambda: [STL.encode(), *of_cases("two.stl")()], _mesh_holds),
     "STL, binary": Target(read_mesh, "b.stl", of_text(STL_BINARY), _mesh_holds),
+    "PLY, lists and strips": Target(
+        read_mesh, "c.ply", of_cases("flags.ply", "lists.ply", "strips.ply", "strips_text.ply"), _mesh_holds
+    ),
     "GLB": Target(read_mesh, "a.glb", of_cases("one.glb", "loop.glb"), _mesh_holds),
+    "GLB, scenes": Target(
+        read_mesh, "b.glb", of_cases("halves.glb", "apart.glb", "quantised.glb", "skinned.glb"), _mesh_holds
+    ),
+    "glTF": Target(read_mesh, "a.gltf", of_cases("inside.gltf"), _mesh_holds),
+    "VTK, text": Target(
+        read_mesh, "a.vtk", of_cases("text3.0.vtk", "text5.1.vtk", "text5.0grid.vtk", "strips.vtk"), _mesh_holds
+    ),
+    "VTK, binary": Target(
+        read_mesh, "b.vtk", of_cases("binary3.0.vtk", "binary5.1.vtk", "binary4.2grid.vtk", "field.vtk"), _mesh_holds
+    ),
+    "VTP, text": Target(read_mesh, "a.vtp", of_cases("ascii<u4.vtp"), _mesh_holds),
+    "VTP, packed": Target(
+        read_mesh,
+        "b.vtp",
+        of_cases(
+            "binary<u4.vtp",
+            "binaryvtkZLibDataCompressor.vtp",
+            "rawvtkZLibDataCompressor.vtp",
+            "raw>u8.vtp",
+            "appendedvtkLZMADataCompressor.vtp",
+        ),
+        _mesh_holds,
+    ),
+    "GIFTI": Target(read_mesh, "a.gii", of_cases("ASCII.gii", "Base64Binary.gii", "GZipBase64Binary.gii"), _mesh_holds),
+    "FreeSurfer": Target(read_mesh, "lh.white", of_cases("lh.white", "longer.pial"), _mesh_holds),
+    "FreeSurfer, text": Target(read_mesh, "a.asc", of_cases("lh.white.asc"), _mesh_holds),
+    "polygons": Target(read_mesh, "p.obj", of_text(POLYGONS), _mesh_holds),
+    "packed by gzip": Target(read_mesh, "a.off.gz", of_cases("a.off.gz"), _mesh_holds),
+    "inside gzip": Target(read_mesh, "b.ply.gz", of_text(PLY), _mesh_holds, gzip.compress),
     "TOSCA": Target(read_mesh, "a.tri", of_text(_FACES, "1 2 3\n1 3 4\n"), _mesh_holds, beside={"a.vert": V_TEXT}),
     "measured surface": Target(read_surface, "s.npz", surfaces),
     "colours, .obj": Target(_look, "a.obj", of_cases("colours.obj", "texture.obj", "more.obj")),

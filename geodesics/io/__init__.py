@@ -4,49 +4,43 @@
 |---|---|
 | W210 | faces of more than three corners were split into triangles |
 | W211 | the triangles of an STL file, which stand alone, were joined where corners are at exactly the same position |
+| W220 | there is more in the file than it declares, which was passed over |
+| W221 | vertices on no face that have no position, or an infinite one, were put in the middle of the others |
+| W222 | parts that the file keeps apart were joined into one mesh |
+| W223 | parts of points or lines were passed over |
+| W224 | single precision, which the format has, moves vertices |
 """
 
 from __future__ import annotations
 
+import gzip
 import os
-from collections.abc import Callable
 from pathlib import Path
 
-from geodesics.errors import MeshError, Note
+from geodesics.errors import MeshError, Note, UnknownFormat
 from geodesics.io.atomic import atomic_write
-from geodesics.io.glb import read_glb
-from geodesics.io.obj import read_obj
-from geodesics.io.off import read_off
-from geodesics.io.opening import read_bytes, sniff
-from geodesics.io.ply import read_ply
-from geodesics.io.stl import read_stl
-from geodesics.io.text import Contents
-from geodesics.io.tosca import read_tosca, tosca_paths
+from geodesics.io.contents import Part
+from geodesics.io.opening import unpacked_name
+from geodesics.io.precision import rounding_notes
+from geodesics.io.reading import contents_of, with_positions
 from geodesics.io.writing import encode
 from geodesics.mesh import Mesh
 
-__all__ = ["atomic_write", "read_mesh", "read_with_notes", "write_mesh"]
-
-_READERS: dict[str, Callable[[bytes, Path], Contents]] = {
-    "off": read_off,
-    "obj": read_obj,
-    "ply": read_ply,
-    "stl": read_stl,
-    "glb": read_glb,
-    "tosca": lambda data, path: read_tosca(path),
-}
+__all__ = ["Part", "atomic_write", "read_mesh", "read_parts", "read_with_notes", "write_mesh"]
 
 
 def read_mesh(path: str | os.PathLike[str]) -> Mesh:
     """Read a mesh from a file, vertices in the order of the file.
 
-    The content decides the format, not the name. Larger polygons are split into triangles, and corners of an STL file
-    at equal positions are welded; `read_with_notes` reports it. No other file is ever opened.
+    The content decides the format, not the name; a file packed by gzip is unpacked. Larger polygons are split into
+    triangles, corners of an STL file at equal positions are welded, and the meshes of a glTF scene are joined;
+    `read_with_notes` reports it, `read_parts` says which was which. No other file is ever opened.
 
     Parameters
     ----------
     path : str or path
-        An OFF, OBJ, PLY, STL or GLB file; of a TOSCA shape the .vert file, the .tri file, or their common stem.
+        An OFF, OBJ, PLY, STL, GLB, glTF, VTK (legacy), VTP, GIFTI or FreeSurfer file; of a TOSCA shape the .vert file,
+        the .tri file, or their common stem. GIFTI and FreeSurfer need the extra `neuro`.
 
     Returns
     -------
@@ -56,7 +50,7 @@ def read_mesh(path: str | os.PathLike[str]) -> Mesh:
     Raises
     ------
     FormatError
-        E201 - E209 and E222, naming the file and line.
+        E201 - E209, E221 and E222, naming the file and line.
     MeshError
         Where the content is no triangle mesh, naming the file.
     OSError
@@ -90,29 +84,54 @@ def read_with_notes(path: str | os.PathLike[str]) -> tuple[Mesh, list[Note]]:
     FormatError, MeshError, OSError
         As `read_mesh` does.
     """
-    path = Path(path)
-    if not path.exists() and tosca_paths(path)[0].exists():
-        contents = read_tosca(path)
-    else:
-        data = read_bytes(path)
-        contents = _READERS[sniff(data, path)](data, path)
+    contents, path = contents_of(path), Path(path)
     try:
-        return Mesh(contents.vertices, contents.triangles), contents.notes
+        vertices, notes = with_positions(contents)
+        return Mesh(vertices, contents.triangles), [*contents.notes, *notes]
     except MeshError as error:
         raise type(error)(f"{path}: {error.args[0]}") from error
 
 
-def write_mesh(mesh: Mesh, path: str | os.PathLike[str]) -> None:
+def read_parts(path: str | os.PathLike[str]) -> list[Part]:
+    """Which vertices and faces of a mesh come from which part of its file.
+
+    Parameters
+    ----------
+    path : str or path
+        As of `read_mesh`.
+
+    Returns
+    -------
+    list of Part
+        Name, material, and the ranges of vertices and faces of every primitive of a glTF scene; empty where the file
+        is of one piece.
+
+    Raises
+    ------
+    FormatError, MeshError, OSError
+        As `read_mesh` does.
+    """
+    return contents_of(path).parts
+
+
+def write_mesh(mesh: Mesh, path: str | os.PathLike[str]) -> list[Note]:
     """Write a mesh in the format of the suffix. Each file is complete or untouched.
 
-    OFF, OBJ, PLY and TOSCA keep every bit; STL and GLB are single precision.
+    OFF, OBJ, PLY, VTP and TOSCA keep every bit; STL and GLB are single precision. A mesh that lies far from the origin
+    is written to GLB around the origin, with its place in the node.
 
     Parameters
     ----------
     mesh : Mesh or mesh object
         The mesh, or one of trimesh, pyvista, meshio or Open3D.
     path : str or path
-        Ending in .off, .obj, .ply, .stl, .glb, .vert or .tri (either of these two writes both files).
+        Ending in .off, .obj, .ply, .stl, .glb, .vtp, .vert or .tri (either of the last two writes both files), and
+        perhaps .gz behind it.
+
+    Returns
+    -------
+    list of Note
+        W224 where single precision moves vertices by more than the shape can bear.
 
     Raises
     ------
@@ -127,8 +146,12 @@ def write_mesh(mesh: Mesh, path: str | os.PathLike[str]) -> None:
     --------
     read_mesh : The inverse.
     """
-    path = Path(path)
-    for suffix, data in encode(Mesh.from_object(mesh), path.suffix.lower()).items():
-        written_as = path.with_suffix(suffix.upper() if path.suffix.isupper() else suffix)
-        with atomic_write(written_as) as stream:
-            stream.write(data)
+    path, mesh = Path(path), Mesh.from_object(mesh)
+    named = unpacked_name(path)
+    if named != path and named.suffix.lower() in (".vert", ".tri"):
+        raise UnknownFormat(f"{path}: the two files of TOSCA are not written packed")
+    for suffix, data in encode(mesh, named.suffix.lower()).items():
+        written_as = named.with_suffix(suffix.upper() if named.suffix.isupper() else suffix)
+        with atomic_write(written_as if named == path else path) as stream:
+            stream.write(data if named == path else gzip.compress(data, mtime=0))
+    return rounding_notes(mesh, named.suffix.lower())

@@ -1,78 +1,117 @@
-"""GLB: binary glTF with exactly one triangle mesh in it."""
+"""GLB and glTF: every triangle of the scene, placed as its nodes say, joined into one mesh."""
 
 from __future__ import annotations
 
-import json
-from io import BytesIO
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from geodesics.errors import BadContainer, ExternalReference, TruncatedFile
-from geodesics.io.text import Contents
+from geodesics.arrays import Floats, Integers
+from geodesics.errors import BadContainer, IndexOutOfRange, InflatesTooFar
+from geodesics.io.cells import triangles_of_strips
+from geodesics.io.contents import Contents, Part
+from geodesics.io.gltf_accessor import read_accessor
+from geodesics.io.gltf_container import Gltf, open_gltf
+from geodesics.io.gltf_nodes import Placed, placed_meshes, posed
+from geodesics.notes import Note
 
-_ITEM_BYTES = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}  # by componentType (glTF 2.0, sec. 3.6.2.2)
-_ITEMS = {"SCALAR": 1, "VEC3": 3}  # numbers in an element, by type of accessor
+TRIANGLES, STRIP, FAN = 4, 5, 6  # modes of a primitive (glTF 2.0, sec. 5.24)
+MOST_BYTES = 1 << 28  # of positions, however often a mesh is placed, unless the file is as large itself; set by hand
+
+
+@dataclass
+class _Joined:
+    """What has been joined so far."""
+
+    vertices: list[Floats] = field(default_factory=list)
+    faces: list[Integers] = field(default_factory=list)
+    parts: list[Part] = field(default_factory=list)
+    n_vertices: int = 0
+    n_faces: int = 0
+    others: int = 0  # pieces of points or lines
 
 
 def read_glb(data: bytes, path: Path) -> Contents:
-    """The one mesh of a GLB file, placed by its node; `BadContainer` when lengths disagree or meshes are several."""
+    """The meshes of a glTF file, each as often as it is placed; `BadContainer` when the description is no good."""
     try:
-        _check(data, path)
-    except (KeyError, IndexError, TypeError, AttributeError, RecursionError) as error:
+        with np.errstate(all="ignore"):  # numbers of a damaged file overflow, and are refused as a mesh
+            return _read(open_gltf(data, path), len(data))
+    except (KeyError, IndexError, TypeError, AttributeError, ValueError, OverflowError, RecursionError) as error:
+        if hasattr(error, "code"):
+            raise
         raise BadContainer(f"{path}: the glTF description is malformed ({error!r})") from error
-    from trimesh import load
-
-    try:
-        scene: Any = load(BytesIO(data), file_type="glb", process=False, skip_materials=True)
-        nodes = list(scene.graph.nodes_geometry)
-        transform, name = scene.graph[nodes[0]]
-        shape = scene.geometry[name]
-        vertices = np.array(shape.vertices) @ transform[:3, :3].T + transform[:3, 3]
-        faces = np.array(shape.faces)
-    except Exception as error:  # whatever a third-party reader throws on a bad file
-        raise BadContainer(f"{path}: the glTF content cannot be read ({error!r})") from error
-    if len(nodes) != 1:
-        raise BadContainer(f"{path}: {len(nodes)} meshes are placed in the scene; export exactly one")
-    return Contents(vertices, faces)
 
 
-def _check(data: bytes, path: Path) -> None:
-    """Every declared length against the bytes that are there, before anything is allocated."""
-    if len(data) < 20 or int.from_bytes(data[8:12], "little") != len(data):
-        raise TruncatedFile(f"{path}: the GLB header declares another length than the {len(data)} bytes found")
-    if int.from_bytes(data[4:8], "little") != 2:
-        raise BadContainer(f"{path}: only version 2 of glTF is supported")
-    chunks, at = [], 12
-    while at < len(data):
-        size = int.from_bytes(data[at : at + 4], "little")
-        if at + 8 + size > len(data):
-            raise TruncatedFile(f"{path}, byte {at}: a chunk of {size} bytes passes the end of the file")
-        chunks.append(data[at + 8 : at + 8 + size])
-        at += 8 + size
-    try:
-        tree = json.loads(chunks[0])
-    except (ValueError, RecursionError) as error:
-        raise BadContainer(f"{path}: the JSON part is malformed ({error})") from error
-    _check_tree(tree, len(chunks[1]) if len(chunks) > 1 else 0, path)
+def _read(gltf: Gltf, size: int) -> Contents:
+    joined = _Joined()
+    for place in placed_meshes(gltf):
+        _add(gltf, place, joined, max(MOST_BYTES, size))
+    if not joined.parts and not joined.others:
+        raise BadContainer(f"{gltf.path}: there are 0 mesh parts in the scene")
+    notes = []
+    if len(joined.parts) > 1:
+        names = ", ".join(f"{part.name or 'unnamed'} ({len(part.faces)} faces)" for part in joined.parts[:5])
+        more = ", ..." if len(joined.parts) > 5 else ""
+        message = f"{len(joined.parts)} parts of the scene were joined into one mesh: {names}{more}"
+        notes.append(Note("W222", "info", message, (), len(joined.parts)))
+    if joined.others:
+        notes.append(Note("W223", "info", f"{joined.others} parts of points or lines were passed over"))
+    if gltf.longer:
+        notes.append(Note("W220", "info", f"{gltf.longer} bytes behind the declared end were passed over"))
+    vertices = np.concatenate([np.empty((0, 3)), *joined.vertices])
+    faces = np.concatenate([np.empty((0, 3), dtype=np.int64), *joined.faces])
+    return Contents(vertices, faces, notes, joined.parts if len(joined.parts) > 1 else [])
 
 
-def _check_tree(tree: dict[str, Any], n_bytes: int, path: Path) -> None:
-    if any("uri" in item for item in [*tree.get("buffers", []), *tree.get("images", [])]):
-        raise ExternalReference(f"{path}: data in other files is not opened; export one self-contained GLB")
-    meshes = tree.get("meshes", [])
-    primitives = [primitive for mesh in meshes for primitive in mesh["primitives"]]
-    if len(primitives) != 1:
-        raise BadContainer(f"{path}: {len(primitives)} mesh parts in the file; export exactly one")
-    if primitives[0].get("mode", 4) != 4 or "indices" not in primitives[0]:
-        raise BadContainer(f"{path}: only indexed triangles are supported")
-    for key in (primitives[0]["indices"], primitives[0]["attributes"]["POSITION"]):
-        accessor = tree["accessors"][key]
-        view = tree["bufferViews"][accessor["bufferView"]]
-        needed = accessor["count"] * _ITEM_BYTES[accessor["componentType"]] * _ITEMS[accessor["type"]]
-        start, length = view.get("byteOffset", 0), view["byteLength"]
-        if min(start, length, accessor["count"]) < 0 or "sparse" in accessor:
-            raise BadContainer(f"{path}: accessor {key} is sparse or has a negative length")
-        if start + length > n_bytes or accessor.get("byteOffset", 0) + needed > length:
-            raise BadContainer(f"{path}: accessor {key} needs {needed} bytes, more than its part of the file holds")
+def _add(gltf: Gltf, place: Placed, joined: _Joined, most_bytes: int) -> None:
+    """The primitives of a placed mesh; those that have the same positions share vertices."""
+    first: dict[tuple[Any, ...], tuple[int, int]] = {}
+    for primitive in place.mesh["primitives"]:
+        gltf.refuse_draco(primitive)
+        mode = primitive.get("mode", TRIANGLES)
+        if mode not in (TRIANGLES, STRIP, FAN):
+            joined.others += 1
+            continue
+        attributes = primitive["attributes"]
+        used = (attributes["POSITION"], repr(primitive.get("targets")), attributes.get("JOINTS_0"))
+        if used not in first:
+            vertices = posed(gltf, place, primitive)
+            if 24 * (joined.n_vertices + len(vertices)) > most_bytes:
+                raise InflatesTooFar(f"{gltf.path}: placed as often as it says, the scene has over {most_bytes} bytes")
+            first[used] = joined.n_vertices, len(vertices)
+            joined.vertices.append(vertices)
+            joined.n_vertices += len(vertices)
+        start, n = first[used]
+        faces = _triangles(gltf, primitive, mode, n)
+        if place.mirrored:
+            faces = faces[:, ::-1]
+        name = place.name if len(place.mesh["primitives"]) == 1 else f"{place.name}.{len(joined.parts)}".lstrip(".")
+        material = gltf.item("materials", primitive["material"]).get("name", "") if "material" in primitive else ""
+        ends = joined.n_faces + len(faces)
+        joined.parts.append(Part(name, str(material), range(start, start + n), range(joined.n_faces, ends)))
+        joined.faces.append(faces + start)
+        joined.n_faces = ends
+
+
+def _triangles(gltf: Gltf, primitive: dict[str, Any], mode: int, n: int) -> Integers:
+    """Triangles (m, 3) of a primitive of n vertices."""
+    corners = np.arange(n, dtype=np.int64)
+    if "indices" in primitive:
+        table = read_accessor(gltf, primitive["indices"], "SCALAR").ravel()
+        if table.dtype.kind != "u":
+            raise BadContainer(f"{gltf.path}: accessor {primitive['indices']} holds no indices")
+        corners = table.astype(np.int64)
+        if len(corners) and corners.max() >= n:
+            raise IndexOutOfRange(
+                f"{gltf.path}: corner {corners.argmax()} of a mesh is vertex {corners.max()}, outside its {n} vertices"
+            )
+    if mode == STRIP:
+        return triangles_of_strips((np.array([len(corners)]), corners))
+    if mode == FAN:
+        middle = corners[1:-1]
+        return np.column_stack([np.full(len(middle), corners[0] if len(corners) else 0), middle, corners[2:]])
+    if len(corners) % 3:
+        raise BadContainer(f"{gltf.path}: {len(corners)} corners do not make triangles")
+    return corners.reshape(-1, 3)

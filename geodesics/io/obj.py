@@ -6,7 +6,9 @@ import re
 from pathlib import Path
 
 from geodesics.errors import BadPolygon, IndexOutOfRange, TruncatedFile
-from geodesics.io.text import Contents, Row, fan, numbers, rows, whole
+from geodesics.io.contents import Contents
+from geodesics.io.polygons import split
+from geodesics.io.text import Row, numbers, rows, whole
 from geodesics.io.truncation import refuse_cut_face
 
 _DECLARED = re.compile(rb"^#[ \t]*(vertices|faces)[ \t]*:[ \t]*(\d{1,18})[ \t]*\r?$", re.IGNORECASE | re.MULTILINE)
@@ -22,15 +24,15 @@ def read_obj(data: bytes, path: Path) -> Contents:
         last = row.words
         if row.words[0] == "v":
             vertex_rows.append(row)
-        elif row.words[0] == "f":
+        elif row.words[0] in ("f", "fo"):
             polygons.append((row, len(vertex_rows)))
-    vertices = numbers(vertex_rows, 1, path)
+    vertices = numbers(vertex_rows, 1, path, unknown=True)
     faces = [_corners(row, defined, len(vertices), path) for row, defined in polygons]
     _check_declared(data, len(vertices), len(faces), path)
-    if last[0] == "f":
+    if last[0] in ("f", "fo"):
         refuse_cut_face(data, faces, len(vertices), 1, path, any_size=True)
-    triangles, notes = fan(faces)
-    return Contents(vertices, triangles, notes)
+    triangles, slots, notes = split(list(map(len, faces)), [corner for face in faces for corner in face], vertices)
+    return Contents(vertices, triangles, notes, slots=slots)
 
 
 def _corners(row: Row, defined: int, n_vertices: int, path: Path) -> list[int]:

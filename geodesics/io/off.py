@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import re
+from itertools import chain
 from pathlib import Path
 
 from geodesics.errors import BadCount, TruncatedFile, UnknownFormat
-from geodesics.io.text import Contents, Row, corners, count, fan, numbers, rows
+from geodesics.io.contents import Contents
+from geodesics.io.polygons import split
+from geodesics.io.text import Row, corners, count, numbers, rows
 from geodesics.io.truncation import refuse_cut_face
+from geodesics.notes import Note
 
 
 def read_off(data: bytes, path: Path) -> Contents:
     """An ASCII OFF file, with any of the prefixes ST, C, N; more lines than declared are allowed, fewer are not."""
     table = list(rows(data, path))
     line, words = table[0]
-    keyword = re.match(r"(?:ST)?C?N?OFF", words[0], re.IGNORECASE)
-    if keyword is None or "BINARY" in (word.upper() for word in words):
+    keyword = re.match(r"(ST|C|N|4)*OFF", words[0], re.IGNORECASE)
+    if keyword is None or "4" in keyword[0] or words[0].startswith("nOFF") or "BINARY" in (w.upper() for w in words):
         raise UnknownFormat(f"{path}, line {line}: only ASCII OFF in three dimensions is supported")
     rest = [word for word in (words[0][keyword.end() :], *words[1:]) if word]
     body = table[1:]
@@ -34,12 +38,40 @@ def _read_body(header: Row, body: list[Row], data: bytes, path: Path) -> Content
     n_vertices = count(header.words[0], 6, data, place)
     n_faces = count(header.words[1], 8, data, place)
     if len(body) < n_vertices + n_faces:
+        body = [Row(header.line, header.words[3:]), *body] if header.words[3:] else body
+        body = _rearranged(body, n_vertices, n_faces)
+    if len(body) < n_vertices + n_faces:
         raise TruncatedFile(
             f"{path}: {n_vertices} vertices and {n_faces} faces are declared, but only {len(body)} lines follow"
         )
-    vertices = numbers(body[:n_vertices], 0, path)
+    vertices = numbers(body[:n_vertices], 0, path, unknown=True)
     polygons = [corners(row, 0, n_vertices, 0, path) for row in body[n_vertices : n_vertices + n_faces]]
     if len(body) == n_vertices + n_faces:
         refuse_cut_face(data, polygons, n_vertices, 0, path)
-    triangles, notes = fan(polygons)
-    return Contents(vertices, triangles, notes)
+    sizes, flat = list(map(len, polygons)), [corner for polygon in polygons for corner in polygon]
+    triangles, slots, notes = split(sizes, flat, vertices)
+    behind = len(body) - n_vertices - n_faces
+    if behind:
+        notes.append(Note("W220", "info", f"{behind} lines behind the last face were passed over"))
+    return Contents(vertices, triangles, notes, slots=slots)
+
+
+def _rearranged(body: list[Row], n_vertices: int, n_faces: int) -> list[Row]:
+    """A vertex and a face a row, of a file whose lines end elsewhere; the rows as they are where words do not add up.
+
+    Lines mean nothing where there are no colours: then the numbers of a sound file are used up exactly.
+    """
+    words = list(chain.from_iterable(row.words for row in body))
+    lines = list(chain.from_iterable([row.line] * len(row.words) for row in body))
+    made, at = [], 0
+    for number in range(n_vertices + n_faces):
+        if at >= len(words):
+            return body
+        size = 3
+        if number >= n_vertices:
+            if not (words[at].isascii() and words[at].isdecimal() and len(words[at]) < 10):
+                return body
+            size = 1 + int(words[at])
+        made.append(Row(lines[at], words[at : at + size]))
+        at += size
+    return made if at == len(words) else body

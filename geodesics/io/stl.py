@@ -3,34 +3,36 @@
 from __future__ import annotations
 
 import re
-from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 
 from geodesics.arrays import Floats
-from geodesics.errors import Note, TruncatedFile
-from geodesics.io.opening import is_binary_stl
-from geodesics.io.text import Contents, numbers, rows
+from geodesics.errors import TruncatedFile
+from geodesics.io.contents import Contents
+from geodesics.io.sniffing import is_binary_stl
+from geodesics.io.text import numbers, rows
+from geodesics.notes import Note
 
 _FACET = ["facet", "outer", "vertex", "vertex", "vertex", "endloop", "endfacet"]
+_IGNORED = ("solid", "endsolid", "color", "colour", "name")  # what may stand between facets
 
 
 def read_stl(data: bytes, path: Path) -> Contents:
     """A binary or ASCII STL file; vertices are numbered in order of first appearance, with a note (W211)."""
-    if is_binary_stl(data):
-        from trimesh.exchange.stl import load_stl_binary
-
-        soup = np.array(load_stl_binary(BytesIO(data)).get("vertices", np.empty((0, 3))), dtype=np.float64)
-    elif not re.match(rb"\s*solid\b", data, re.IGNORECASE) or b"\0" in data[:1024]:
-        declared = int.from_bytes(data[80:84], "little")
+    declared = int.from_bytes(data[80:84], "little")
+    is_text = re.match(rb"\s*solid\b", data, re.IGNORECASE) is not None and b"\0" not in data[:1024]
+    longer = len(data) - 84 - 50 * declared
+    if is_binary_stl(data) or (not is_text and declared and longer >= 0):
+        facet = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+        soup = np.frombuffer(data, facet, declared, 84)["corners"].reshape(-1, 3)
+        return _weld(soup.astype(np.float64), longer)
+    if not is_text:
         raise TruncatedFile(
             f"{path}: neither binary STL ({declared} triangles need {84 + 50 * declared} bytes, "
             f"the file has {len(data)}) nor ASCII STL"
         )
-    else:
-        soup = _read_ascii(data, path)
-    return _weld(soup)
+    return _weld(_read_ascii(data, path), 0)
 
 
 def _read_ascii(data: bytes, path: Path) -> Floats:
@@ -38,7 +40,9 @@ def _read_ascii(data: bytes, path: Path) -> Floats:
     vertex_rows, state, keyword = [], 0, ""
     for row in rows(data, path, comment=None):
         keyword = row.words[0].lower()
-        if state == 0 and keyword in ("solid", "endsolid"):
+        if keyword == "end" and len(row.words) > 1:  # some write two words
+            keyword += row.words[1].lower()
+        if state == 0 and keyword in _IGNORED:
             continue
         if keyword != _FACET[state]:
             raise TruncatedFile(f"{path}, line {row.line}: {_FACET[state]!r} expected, {row.words[0][:40]!r} found")
@@ -47,14 +51,17 @@ def _read_ascii(data: bytes, path: Path) -> Floats:
         state = (state + 1) % len(_FACET)
     if keyword != "endsolid":
         raise TruncatedFile(f"{path}: the file does not end in endsolid")
-    return numbers(vertex_rows, 1, path)
+    return numbers(vertex_rows, 1, path, unknown=True)
 
 
-def _weld(soup: Floats) -> Contents:
+def _weld(soup: Floats, longer: int) -> Contents:
     """Equal positions become one vertex, numbered by first appearance."""
     _, first, inverse = np.unique(soup, axis=0, return_index=True, return_inverse=True)
     rank = np.empty(len(first), dtype=np.int64)
     order = np.argsort(first)
     rank[order] = np.arange(len(first))
     message = f"{len(soup)} corners at {len(first)} distinct positions were welded into that many vertices"
-    return Contents(soup[first[order]], rank[inverse.reshape(-1, 3)], [Note("W211", "info", message)])
+    notes = [Note("W211", "info", message)]
+    if longer > 0:
+        notes.append(Note("W220", "info", f"{longer} bytes behind the last triangle were passed over"))
+    return Contents(soup[first[order]], rank[inverse.reshape(-1, 3)], notes)

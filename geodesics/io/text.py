@@ -2,36 +2,27 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
 from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
-from geodesics.arrays import Floats, Integers
+from geodesics.arrays import Floats
 from geodesics.errors import (
     BadCount,
     BadPolygon,
     BadToken,
     IndexOutOfRange,
     LineTooLong,
-    Note,
     TruncatedFile,
 )
 from geodesics.io.opening import LONGEST_LINE
 
 _DECIMAL = frozenset("0123456789+-.eE")
-
-
-@dataclass(frozen=True, eq=False)
-class Contents:
-    """What a file holds: vertices (n, 3), triangles (m, 3) and the notes taken on the way."""
-
-    vertices: Floats
-    triangles: Integers
-    notes: list[Note] = field(default_factory=list)
+_UNKNOWN = re.compile(r"[-+]?(nan(\(\w*\))?|inf(inity)?|1\.?#(ind|qnan|snan|inf)\w*)", re.IGNORECASE)
 
 
 class Row(NamedTuple):
@@ -47,13 +38,22 @@ def rows(data: bytes, path: Path, comment: str | None = "#", first_line: int = 1
     for number, line in enumerate(text.split("\n"), first_line):
         if len(line) > LONGEST_LINE:
             raise LineTooLong(f"{path}, line {number}: longer than {LONGEST_LINE} bytes")
-        words = (line.split(comment, 1)[0] if comment else line).split()
+        words = (_uncommented(line, comment) if comment and comment in line else line).split()
         if words:
             yield Row(number, words)
 
 
-def numbers(table: Sequence[Row], first: int, path: Path, columns: int = 3) -> Floats:
-    """Words first .. first + columns of every row, as float64; only plain decimals pass (`BadToken`, E207)."""
+def _uncommented(line: str, comment: str) -> str:
+    """A line up to its comment, which begins with a mark that is not that of an unknown number, as in 1.#QNAN."""
+    found = re.search(rf"(?<!1\.)(?<!1){comment}|{comment}(?!ind|qnan|snan|inf)", line, re.IGNORECASE)
+    return line[: found.start()] if found else line
+
+
+def numbers(table: Sequence[Row], first: int, path: Path, columns: int = 3, *, unknown: bool = False) -> Floats:
+    """Words first .. first + columns of every row, as float64; only plain decimals pass (`BadToken`, E207).
+
+    With `unknown`, the words by which programs write that there is no number, such as nan and -1.#IND, are NaN.
+    """
     for row in table:
         if len(row.words) < first + columns:
             raise TruncatedFile(f"{path}, line {row.line}: {columns} numbers expected, {len(row.words) - first} found")
@@ -63,18 +63,19 @@ def numbers(table: Sequence[Row], first: int, path: Path, columns: int = 3) -> F
             return np.array(words, dtype=np.float64).reshape(-1, columns)
         except ValueError:
             pass
-    raise _first_bad_number(table, first, columns, path)
+    values = [[_number(word, row, path, unknown) for word in row.words[first : first + columns]] for row in table]
+    return np.array(values, dtype=np.float64).reshape(-1, columns)
 
 
-def _first_bad_number(table: Sequence[Row], first: int, columns: int, path: Path) -> BadToken:
-    for row in table:
-        for word in row.words[first : first + columns]:
-            try:
-                float(word if _DECIMAL.issuperset(word) else "no")
-            except ValueError:
-                hint = "; write decimals with a point, not a comma" if "," in word else ""
-                return BadToken(f"{path}, line {row.line}: {word[:40]!r} is not a finite decimal number{hint}")
-    raise AssertionError("called without a bad number")
+def _number(word: str, row: Row, path: Path, unknown: bool) -> float:
+    if unknown and _UNKNOWN.fullmatch(word):
+        return float("nan")
+    try:
+        return float(word if _DECIMAL.issuperset(word) else "no")
+    except ValueError:
+        hint = "; write decimals with a point, not a comma" if "," in word else ""
+        message = f"{path}, line {row.line}: {word[:40]!r} is not a finite decimal number{hint}"
+    raise BadToken(message)
 
 
 def whole(word: str, place: str) -> int:
@@ -119,14 +120,3 @@ def vertex_index(word: str, n_vertices: int, base: int, place: str) -> int:
             f"{place}: index {word[:40]} refers outside the {n_vertices} vertices (counted from {base})"
         )
     return index
-
-
-def fan(polygons: list[list[int]]) -> tuple[Integers, list[Note]]:
-    """Polygons split into triangles about their first corner, in order, with a note (W210) when any was larger."""
-    triangles = [(p[0], p[i], p[i + 1]) for p in polygons for i in range(1, len(p) - 1)]
-    larger = [i for i, p in enumerate(polygons) if len(p) > 3]
-    notes = []
-    if larger:
-        message = f"{len(larger)} of {len(polygons)} faces have more than three corners and were split into triangles"
-        notes.append(Note("W210", "info", message, tuple(larger[:10])))
-    return np.array(triangles, dtype=np.int64).reshape(-1, 3), notes

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
 from geodesics.errors import BadPolygon, TruncatedFile
-from geodesics.io.opening import read_bytes
-from geodesics.io.text import Contents, fan, numbers, rows, vertex_index
+from geodesics.io.contents import Contents
+from geodesics.io.opening import read_bytes, unpacked_name
+from geodesics.io.text import numbers, rows, vertex_index
 from geodesics.io.truncation import refuse_cut_face
 
 
 def tosca_paths(path: Path) -> tuple[Path, Path]:
     """The two files of a TOSCA shape, from either of them or their common stem; the case of the suffix stays."""
+    path = unpacked_name(path)
     stem = path.with_suffix("") if path.suffix.lower() in (".vert", ".tri") else path
     upper = path.suffix.isupper()
     vert, tri = (".VERT", ".TRI") if upper else (".vert", ".tri")
@@ -20,8 +24,8 @@ def tosca_paths(path: Path) -> tuple[Path, Path]:
 
 def read_tosca(path: Path) -> Contents:
     """The shape of which `path` is the `.vert` file, the `.tri` file or the common stem."""
-    vert, tri = tosca_paths(path)
-    vertices = numbers(list(rows(read_bytes(vert), vert)), 0, vert)
+    vert, tri = (_as_it_is_there(half) for half in tosca_paths(path))
+    vertices = numbers(list(rows(read_bytes(vert), vert)), 0, vert, unknown=True)
     data = read_bytes(tri)
     polygons = []
     for row in rows(data, tri):
@@ -31,5 +35,9 @@ def read_tosca(path: Path) -> Contents:
             raise error(f"{place}: three indices expected, {len(row.words)} found")
         polygons.append([vertex_index(word, len(vertices), 1, place) for word in row.words])
     refuse_cut_face(data, polygons, len(vertices), 1, tri)
-    triangles, notes = fan(polygons)
-    return Contents(vertices, triangles, notes)
+    return Contents(vertices, np.array(polygons, dtype=np.int64).reshape(-1, 3))
+
+
+def _as_it_is_there(path: Path) -> Path:
+    packed = path.with_name(f"{path.name}.gz")
+    return packed if packed.exists() and not path.exists() else path

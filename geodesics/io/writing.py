@@ -8,6 +8,8 @@ import numpy as np
 
 from geodesics.arrays import Floats, Integers
 from geodesics.errors import CoordinateRange, UnknownFormat
+from geodesics.io.precision import offset
+from geodesics.io.vtp_writing import encode_vtp
 from geodesics.mesh import Mesh
 
 
@@ -24,7 +26,11 @@ def encode(mesh: Mesh, suffix: str) -> dict[str, bytes]:
         return {suffix: _ply(v, f)}
     if suffix in (".stl", ".glb"):
         return {suffix: _single_precision(mesh, suffix)}
-    raise UnknownFormat(f"no writer for {suffix!r}; end the name with .off, .obj, .ply, .stl, .glb, .vert or .tri")
+    if suffix == ".vtp":
+        return {suffix: encode_vtp(v, f)}
+    raise UnknownFormat(
+        f"no writer for {suffix!r}; end the name with .off, .obj, .ply, .stl, .glb, .vtp, .vert or .tri"
+    )
 
 
 def _rows(prefix: str, table: Floats | Integers) -> Iterable[str]:
@@ -54,7 +60,13 @@ def _single_precision(mesh: Mesh, suffix: str) -> bytes:
 
     if np.abs(mesh.vertices).max() > np.finfo(np.float32).max:
         raise CoordinateRange(f"coordinates do not fit the single precision of {suffix}; write .ply or .off instead")
-    shape = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False, validate=False)
+    center = offset(mesh) if suffix == ".glb" else None
+    vertices = mesh.vertices if center is None else mesh.vertices - center
+    shape = trimesh.Trimesh(vertices, mesh.faces, process=False, validate=False)
     if suffix == ".stl":
         return bytes(trimesh.exchange.stl.export_stl(shape))
-    return bytes(trimesh.exchange.gltf.export_glb(shape, include_normals=False))
+    if center is None:
+        return bytes(trimesh.exchange.gltf.export_glb(shape, include_normals=False))
+    scene = trimesh.Scene()
+    scene.add_geometry(shape, transform=trimesh.transformations.translation_matrix(center))
+    return bytes(trimesh.exchange.gltf.export_glb(scene, include_normals=False))

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from geodesics import Mesh
 from geodesics.arrays import Floats
 from geodesics.errors import FormatError, MissingExtra
-from geodesics.io.opening import read_bytes, sniff
+from geodesics.io.opening import read_bytes
+from geodesics.io.sniffing import sniff
 
 KINDS = ("obj", "ply", "glb")
 

@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-import base64
 import io
 import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
-from xml.sax.saxutils import quoteattr
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geodesics import Mesh
 from geodesics.io import atomic_write
+from geodesics.io.vtp_writing import encode_vtp
 from gmds.appearance.reading import BadLook, Look
 
 ENDINGS = (".obj", ".ply", ".glb", ".vtp")
 Values = Mapping[str, NDArray[Any]]
-VTK = {"f8": "Float64", "f4": "Float32", "i8": "Int64", "i4": "Int32", "u1": "UInt8", "b1": "UInt8"}
 
 
 def write_look(path: Path, mesh: Mesh, look: Look, values: Values | None = None) -> list[Path]:
@@ -137,28 +135,9 @@ def _ply_kind(column: NDArray[Any]) -> str:
 
 
 def _vtp(mesh: Mesh, look: Look, values: Values) -> bytes:
-    """XML PolyData with arrays in base64; VTK, which could write it, is larger than all the rest together."""
-    arrays = dict(values) if look.colours is None else {**values, "colours": look.colours}
-    n, m = mesh.n_vertices, mesh.n_faces
-    points = "".join(_vtk_array(name, np.asarray(array).reshape(n, -1)) for name, array in arrays.items())
-    cells = _vtk_array("connectivity", mesh.faces.reshape(-1, 1))
-    cells += _vtk_array("offsets", 3 * np.arange(1, m + 1)[:, None])
-    return (
-        '<?xml version="1.0"?>\n<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">'
-        f'<PolyData><Piece NumberOfPoints="{n}" NumberOfPolys="{m}" NumberOfVerts="0" NumberOfLines="0" '
-        f'NumberOfStrips="0"><PointData>{points}</PointData><Points>{_vtk_array("Points", mesh.vertices)}</Points>'
-        f"<Polys>{cells}</Polys></Piece></PolyData></VTKFile>\n"
-    ).encode()
-
-
-def _vtk_array(name: str, table: NDArray[Any]) -> str:
-    kind = table.dtype.kind + str(table.dtype.itemsize)
-    if kind not in VTK:
-        table, kind = table.astype(np.float64 if kind[0] == "f" else np.int64), "f8" if kind[0] == "f" else "i8"
-    content = np.ascontiguousarray(table, dtype=f"<{kind}").tobytes()
-    text = base64.b64encode(len(content).to_bytes(8, "little") + content).decode("ascii")
-    about = f'type="{VTK[kind]}" Name={quoteattr(name)} NumberOfComponents="{table.shape[1]}" format="binary"'
-    return f"<DataArray {about}>{text}</DataArray>"
+    return encode_vtp(
+        mesh.vertices, mesh.faces, dict(values) if look.colours is None else {**values, "colours": look.colours}
+    )
 
 
 def _glb(mesh: Mesh, look: Look, _: Values) -> bytes:

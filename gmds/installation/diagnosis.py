@@ -36,6 +36,7 @@ EXTRAS = {
     ),
     "repair": (("pymeshlab>=2023.12",), "closing holes and remeshing in `gmds repair`"),
     "batch": (("distributed>=2024.1",), "`gmds batch`"),
+    "neuro": (("nibabel>=5.2",), "GIFTI and FreeSurfer surfaces"),
 }
 MODULES = {"libigl": "igl", "tomli-w": "tomli_w", "pillow": "PIL"}  # modules that are not called as their package
 PATIENCE = 120  # seconds that an import may take: a bound

@@ -11,6 +11,8 @@ from geodesics.arrays import Floats
 from geodesics.points import SurfacePoints
 from gmds.errors import MapError
 
+HELD = 0.5  # of a point's corners, by weight, that must have weights for it to have some: the nearer side decides
+
 
 def carry(points: SurfacePoints, values: NDArray[Any], labels: bool | None = None) -> NDArray[Any]:
     """Values per vertex of the points' mesh as values per point.
@@ -56,6 +58,9 @@ def carry(points: SurfacePoints, values: NDArray[Any], labels: bool | None = Non
 def carry_weights(points: SurfacePoints, weights: ArrayLike) -> Floats:
     """Weights per vertex, as of bones in skinning, as weights per point: interpolated, rows sum to 1.
 
+    A vertex may have no weights, a row of 0, as one that no bone moves: a point has none where most of its corners,
+    by their barycentric weights, have none. Vertices on no face are not looked at.
+
     Parameters
     ----------
     points : SurfacePoints
@@ -66,12 +71,12 @@ def carry_weights(points: SurfacePoints, weights: ArrayLike) -> Floats:
     Returns
     -------
     float64 array of shape (p, k)
-        Each row sums to 1.
+        Each row sums to 1, or is 0.
 
     Raises
     ------
     MapError
-        Naming the vertex whose weights are negative, not finite, or all 0; for another shape.
+        Naming the vertex on a face whose weights are negative or not finite; for another shape.
 
     See Also
     --------
@@ -80,11 +85,23 @@ def carry_weights(points: SurfacePoints, weights: ArrayLike) -> Floats:
     given = np.asarray(weights, dtype=np.float64)
     if given.ndim != 2:
         raise MapError(f"weights must have shape (n, k), a column for each bone, not {given.shape}")
-    wrong = np.flatnonzero(~(np.isfinite(given).all(axis=1) & (given >= 0).all(axis=1) & (given.sum(axis=1) > 0)))
+    if len(given) != points.mesh.n_vertices:
+        raise MapError(f"weights have {len(given)} rows, and the target has {points.mesh.n_vertices} vertices")
+    used = np.unique(points.mesh.faces)
+    wrong = used[~(np.isfinite(given[used]) & (given[used] >= 0)).all(axis=1)]
     if len(wrong):
-        raise MapError(f"the weights of vertex {wrong[0]} must be at least 0, and one of them above it")
-    carried = carry(points, given / given.sum(axis=1, keepdims=True), labels=False)
-    return np.asarray(carried / carried.sum(axis=1, keepdims=True), dtype=np.float64)
+        raise MapError(f"the weights of vertex {wrong[0]} must be finite and at least 0")
+    clean = np.zeros_like(given)
+    clean[used] = given[used]
+    carried = carry(points, _to_sum_one(clean), labels=False)
+    carried[carried.sum(axis=1) < HELD] = 0
+    return np.asarray(_to_sum_one(carried), dtype=np.float64)
+
+
+def _to_sum_one(weights: Floats) -> Floats:
+    """Rows divided by their sum, where it is not 0."""
+    total = weights.sum(axis=1, keepdims=True)
+    return np.divide(weights, total, out=np.zeros_like(weights), where=total > 0)
 
 
 def is_label(values: NDArray[Any]) -> bool:

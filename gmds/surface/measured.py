@@ -123,10 +123,10 @@ def measure(mesh: Mesh, *, reflected: bool = False) -> Surface:
     used = np.unique(mesh.faces[kept])
     places = len(used) if len(used) < FEWEST_VERTICES else len(np.unique(mesh.vertices[used], axis=0))
     if places < FEWEST_VERTICES:
+        doubled = mesh.n_vertices - len(np.unique(mesh.vertices, axis=0))
+        hint = f"join {doubled} vertices at equal positions: gmds repair --weld" if doubled else "refine the mesh"
         what = f"{len(used)} vertices" if places == len(used) else f"{len(used)} vertices in {places} places"
-        raise TooFewVertices(
-            f"the largest part of {mesh!r} has {what}; matching needs {FEWEST_VERTICES}; refine the mesh"
-        )
+        raise TooFewVertices(f"the largest part of {mesh!r} has {what}; matching needs {FEWEST_VERTICES}; {hint}")
     shift = mesh.vertices[used].mean(axis=0)
     place, faces = (mesh.vertices - shift) / np.sqrt(component_areas(mesh).max()), mesh.faces[kept]
     if reflected:

@@ -11,7 +11,7 @@ from generated_shapes import icosphere
 from known_maps import identity
 
 from geodesics import GeodesicDistance, Mesh, SurfacePoints, eigenpairs, embedded
-from geodesics.io.text import Contents
+from geodesics.io.contents import Contents
 from geodesics.topology.edges import edges
 from geodesics.topology.orientation import orientation
 from gmds.landmarks.checking import place_landmarks

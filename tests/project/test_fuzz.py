@@ -10,7 +10,9 @@ import pytest
 
 FILES = 150
 READERS = [
-    "OFF", "OBJ", "PLY, text", "PLY, binary", "STL, text", "STL, binary", "GLB", "TOSCA", "measured surface",
+    "OFF", "OBJ", "PLY, text", "PLY, binary", "STL, text", "STL, binary", "PLY, lists and strips", "GLB", "GLB, scenes",
+    "glTF", "VTK, text", "VTK, binary", "VTP, text", "VTP, packed", "GIFTI", "FreeSurfer", "FreeSurfer, text",
+    "polygons", "packed by gzip", "inside gzip", "TOSCA", "measured surface",
     "colours, .obj", "colours, .ply", "colours, .glb", "texture", "map", "map, meta inside", "map, face inside",
     "map, barycentric inside", "map, valid inside", "map, distortion inside", "landmarks of a map", "settings of a map",
     "map, kept by a batch", "landmarks, .csv", "landmarks, .mrk.json", "landmarks, .fcsv", "landmarks, .tps",

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from gmds.cli.group import Command
-from gmds.cli.output import emit, json_option, seed_option
+from gmds.cli.output import emit, json_option, note, seed_option
 
 if TYPE_CHECKING:
     from gmds.deformations import Deformation
@@ -81,7 +81,8 @@ def command(
     source = read_mesh(mesh)
     done = compose(*(deformation for deformation, _ in steps))(source)
     result, points = done
-    write_mesh(result, output)
+    for told in write_mesh(result, output):
+        note(str(told))
     if truth is not None:
         meta = {"parameters": {"steps": wanted, "seed": seed}}
         Correspondence.from_points(source, points, valid=~done.missing, meta=meta).save(truth)

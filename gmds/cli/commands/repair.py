@@ -43,7 +43,8 @@ def command(mesh: Path, output: Path, maps: Path | None, as_json: bool, **steps:
       gmds repair scan.ply -o small.ply --decimate 5000
 
     Positions do not change and what stays keeps its order, unless one of the other steps is asked for; these follow
-    in the order in which they are listed here. `gmds check` says which of them a mesh needs. --maps holds `vertex` and
+    in the order in which they are listed here. `gmds check` says which of them a mesh needs. .stl and .glb have single
+    precision; where that moves vertices by more than the shape can bear, it is told. --maps holds `vertex` and
     `face`, for each new one the old index, and `new_vertex` and `new_face`, for each old one the new; -1 is none. A
     remeshed surface has nothing but new ones, so it goes without --maps.
     """
@@ -51,17 +52,18 @@ def command(mesh: Path, output: Path, maps: Path | None, as_json: bool, **steps:
 
     import numpy as np
 
-    from geodesics import read_mesh, write_mesh
+    from geodesics import read_with_notes, write_mesh
     from geodesics.io import atomic_write
     from geodesics.repair.remeshing import remesh
     from geodesics.repair.repairing import repair
 
     if maps is not None and steps["remesh"] is not None:
         raise click.UsageError("--remesh makes every vertex new, so there are no --maps to write")
-    found = repair(read_mesh(mesh), weld=steps["weld"], cut=steps["cut"], largest=steps["largest"])
+    given, notes = read_with_notes(mesh)
+    found = repair(given, weld=steps["weld"], cut=steps["cut"], largest=steps["largest"])
     found = _with_new_faces(found, steps["fill_holes"], steps["decimate"])
     better = found.mesh if steps["remesh"] is None else remesh(found.mesh, steps["remesh"])
-    write_mesh(better, output)
+    notes = [*notes, *found.notes, *write_mesh(better, output)]
     if maps is not None:
         with atomic_write(maps) as stream:
             np.savez_compressed(
@@ -69,10 +71,10 @@ def command(mesh: Path, output: Path, maps: Path | None, as_json: bool, **steps:
             )
     counts = {"file": str(output), "vertices": better.n_vertices, "faces": better.n_faces}
     if as_json:
-        emit({**counts, "notes": [asdict(note) for note in found.notes]}, as_json)
+        emit({**counts, "notes": [asdict(note) for note in notes]}, as_json)
         return
     emit(counts, as_json)
-    for told in map(str, found.notes) if found.notes else ["nothing was wrong"]:
+    for told in map(str, notes) if notes else ["nothing was wrong"]:
         click.echo(told)
 
 
