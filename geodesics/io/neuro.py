@@ -21,6 +21,7 @@ from geodesics.errors import (
     MissingExtra,
     TruncatedFile,
 )
+from geodesics.extras import how_to_install
 from geodesics.io.cells import no_cells, surface
 from geodesics.io.contents import Contents
 from geodesics.io.text import count, numbers, rows, vertex_index
@@ -35,9 +36,8 @@ def _nibabel() -> Any:
     try:
         import nibabel
     except ImportError as error:
-        raise MissingExtra(
-            "GIFTI and FreeSurfer files need nibabel; install it with: pip install 'gmds[neuro]'"
-        ) from error
+        reason = f"GIFTI and FreeSurfer files need nibabel; install it with: {how_to_install('neuro')}"
+        raise MissingExtra(reason) from error
     return nibabel
 
 

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from geodesics.arrays import Floats, Integers
+from geodesics.extras import how_to_install
 
 SECONDS = 1800  # of wall time, after which a filter is stopped; set by hand, no measurement depends on it
 
@@ -25,7 +26,7 @@ def apply_filter(name: str, vertices: Floats, faces: Integers, **options: Any) -
     from geodesics.errors import MeshError, MissingExtra
 
     if importlib.util.find_spec("pymeshlab") is None:
-        raise MissingExtra(f"{name} needs pymeshlab; install it with: pip install 'gmds[repair]'")
+        raise MissingExtra(f"{name} needs pymeshlab; install it with: {how_to_install('repair')}")
     with tempfile.TemporaryDirectory() as folder:
         given, made = Path(folder) / "given.npz", Path(folder) / "made.npz"
         np.savez(given, vertices=vertices, faces=faces.astype(np.int32))

@@ -1,6 +1,6 @@
 """Repairing a mesh, with index arrays between the old mesh and the new one.
 
-`remesh` and `fill_holes` beside it run pymeshlab, which is GPL-3 and therefore an extra (`pip install gmds[repair]`),
+`remesh` and `fill_holes` beside it run pymeshlab, which is GPL-3 and therefore an extra (`repair`),
 in a process of its own.
 """
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from geodesics import Mesh
 from geodesics.arrays import Floats
 from geodesics.errors import FormatError, MissingExtra
+from geodesics.extras import how_to_install
 from geodesics.io.opening import read_bytes
 from geodesics.io.sniffing import sniff
 
@@ -119,7 +120,7 @@ def _image(path: Path) -> Any:
     try:
         from PIL import Image
     except ImportError as error:
-        raise MissingExtra("textures need Pillow; install it with: pip install 'gmds[viz]'") from error
+        raise MissingExtra(f"textures need Pillow; install it with: {how_to_install('viz')}") from error
     data = read_bytes(path)
     try:
         image = Image.open(io.BytesIO(data))

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Any, TypeVar
 
 from geodesics.errors import MissingExtra
+from geodesics.extras import how_to_install
 from gmds.batch.records import WORKER_DIED, Failure
 from gmds.batch.starting import end_if_starting, local_cluster
 
@@ -23,7 +24,7 @@ TRIES = 3  # workers that may die of a task before it is given up
 LOST_AFTER = 30  # seconds that a worker may take to come back, after which it is replaced
 COUNT_EVERY = 1.0  # seconds between two counts of the threads
 LOOK_EVERY = 5.0  # seconds between two looks at the workers while nothing is done
-INSTALL = "a batch needs dask.distributed; install it with: pip install 'gmds[batch]'"
+INSTALL = f"a batch needs dask.distributed; install it with: {how_to_install('batch')}"
 
 
 @contextlib.contextmanager

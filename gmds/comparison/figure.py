@@ -10,6 +10,7 @@ import scipy.cluster.hierarchy as hierarchy
 
 from geodesics.arrays import Floats
 from geodesics.errors import MissingExtra
+from geodesics.extras import how_to_install
 from gmds.comparison.clustering import families, leaf_order, plane_map, tree
 from gmds.pictures.colours import label_colours
 
@@ -29,7 +30,7 @@ def comparison_figure(names: Sequence[str], matrix: Floats, pictures: Sequence[F
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
     except ImportError as error:
-        raise MissingExtra("a picture needs matplotlib; install it with: pip install 'gmds[viz]'") from error
+        raise MissingExtra(f"a picture needs matplotlib; install it with: {how_to_install('viz')}") from error
 
     family = families(names)
     number = np.unique(family, return_inverse=True)[1]

@@ -14,6 +14,7 @@ import sys
 from dataclasses import dataclass
 from typing import Literal
 
+from geodesics.extras import PACKAGES, how_to_install
 from gmds._version import __version__
 
 PYTHON = (3, 11)  # the oldest that gmds runs on, as pyproject.toml says
@@ -31,12 +32,12 @@ REQUIRED = (
 )
 EXTRAS = {
     "viz": (
-        ("matplotlib>=3.8", "plotly>=6", "pyvista>=0.44", "pillow>=10"),
+        PACKAGES["viz"],
         "pictures; pages and reports need neither it nor a browser here",
     ),
-    "repair": (("pymeshlab>=2023.12",), "closing holes and remeshing in `gmds repair`"),
-    "batch": (("distributed>=2024.1",), "`gmds batch`"),
-    "neuro": (("nibabel>=5.2",), "GIFTI and FreeSurfer surfaces"),
+    "repair": (PACKAGES["repair"], "closing holes and remeshing in `gmds repair`"),
+    "batch": (PACKAGES["batch"], "`gmds batch`"),
+    "neuro": (PACKAGES["neuro"], "GIFTI and FreeSurfer surfaces"),
 }
 MODULES = {"libigl": "igl", "tomli-w": "tomli_w", "pillow": "PIL"}  # modules that are not called as their package
 PATIENCE = 120  # seconds that an import may take: a bound
@@ -59,7 +60,7 @@ def diagnose() -> list[Finding]:
 
     system = f"{platform.system()} {platform.machine()}"
     findings = [Finding("gmds", "ok", __version__), _python(), Finding("system", "ok", system)]
-    findings += [_package(needed, "pip install --upgrade gmds") for needed in REQUIRED]
+    findings += [_package(needed, f"pip install '{needed}'") for needed in REQUIRED]
     works = all(finding.state == "ok" for finding in findings)
     findings += [_extra(name) for name in EXTRAS]
     return [*findings, _drawing(), _kernels(), _threads()] if works else findings  # these use what is needed
@@ -91,7 +92,7 @@ def _package(needed: str, advice: str) -> Finding:
 def _extra(name: str) -> Finding:
     """Whether all packages of an optional part are there."""
     packages, purpose = EXTRAS[name]
-    advice = f"pip install 'gmds[{name}]'"
+    advice = how_to_install(name)
     parts = [_package(needed, advice) for needed in packages]
     found = ", ".join(f"{part.name} {part.found}" for part in parts)
     broken = [part for part in parts if part.state != "ok" and part.found != "not installed"]

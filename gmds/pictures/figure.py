@@ -10,6 +10,7 @@ import numpy as np
 
 from geodesics.arrays import Floats
 from geodesics.errors import MissingExtra
+from geodesics.extras import how_to_install
 from gmds.pictures.colours import value_colours
 from gmds.pictures.software import Shot
 
@@ -40,7 +41,7 @@ def composed(panels: Sequence[Panel], images: Sequence[Floats], title: str = "")
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
     except ImportError as error:
-        raise MissingExtra("a picture needs matplotlib; install it with: pip install 'gmds[viz]'") from error
+        raise MissingExtra(f"a picture needs matplotlib; install it with: {how_to_install('viz')}") from error
 
     boxes = [image.shape[1] + (70 if panel.limits else 0) for panel, image in zip(panels, images, strict=True)]
     width, tallest, head = sum(boxes), max(image.shape[0] for image in images), 60 if title else 34

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from geodesics.arrays import Floats, Integers
+from geodesics.extras import how_to_install
 from gmds.errors import RenderingError
 from gmds.pictures.software import OVERSAMPLING, Shot, averaged
 
@@ -43,7 +44,7 @@ def offscreen(shots: Sequence[Shot]) -> list[Floats]:
     software : On any machine.
     """
     if not _installed():
-        raise RenderingError("pyvista is not installed; install it with: pip install 'gmds[viz]'")
+        raise RenderingError(f"pyvista is not installed; install it with: {how_to_install('viz')}")
     with tempfile.TemporaryDirectory(prefix="gmds-") as folder:
         for i, shot in enumerate(shots):
             _hand_over(shot, Path(folder) / f"{i}.npz")

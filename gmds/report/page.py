@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from geodesics import Mesh
 from geodesics.arrays import Floats
 from geodesics.errors import MissingExtra
+from geodesics.extras import how_to_install
 from geodesics.io import atomic_write
 from gmds.maps.point_map import PointMap
 from gmds.pictures.camera import Direction, alignment, broadside
@@ -132,7 +133,7 @@ def _library() -> str:
     try:
         from plotly.offline import get_plotlyjs
     except ImportError as error:
-        raise MissingExtra("a report needs plotly; install it with: pip install 'gmds[viz]'") from error
+        raise MissingExtra(f"a report needs plotly; install it with: {how_to_install('viz')}") from error
     return str(get_plotlyjs())
 
 

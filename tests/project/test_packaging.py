@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import email
 import email.message
+import re
 import subprocess
 import sys
 import tarfile
@@ -13,6 +14,8 @@ from pathlib import Path
 
 import pytest
 from places import ROOT
+
+import gmds
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 
@@ -79,3 +82,25 @@ def test_the_metadata_says_what_the_project_says(metadata: email.message.Message
     needed = [line.partition(";")[0].strip() for line in metadata.get_all("Requires-Dist") or []]
     assert set(PROJECT["dependencies"]) <= {line.replace(" ", "") for line in needed}
     assert "pymeshlab" not in " ".join(PROJECT["dependencies"]), "GPL-3: an extra, never needed"
+
+
+def test_a_package_index_would_take_them_and_show_no_broken_links(built: Path, metadata: email.message.Message) -> None:
+    pytest.importorskip("twine")
+    command = [sys.executable, "-m", "twine", "check", "--strict", *map(str, built.iterdir())]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    page = str(metadata.get_payload())
+    assert "# gmds" in page and "## Landmarks" in page and "<!--" not in page and "![" not in page
+    assert re.findall(r"\]\((?!https?:|#)[^)]*\)", page) == []
+
+
+def test_the_conda_recipe_asks_for_what_the_project_needs() -> None:
+    recipe = (ROOT / "conda" / "recipe.yaml").read_text(encoding="utf-8")
+    asked = [
+        line.strip()[2:].partition("#")[0].replace(" ", "") for line in recipe.partition("  run:")[2].splitlines()[1:]
+    ]
+    needed = [one.replace("libigl", "igl") for one in PROJECT["dependencies"]]
+    assert asked[: len(needed) + 1] == [f"python{PROJECT['requires-python']}", *needed]
+    assert f'version: "{gmds.__version__}"' in recipe and "gmds = gmds.cli:main" in recipe
+    build = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["build-system"]["requires"]
+    assert all(f"- {one.replace('>=', ' >=')}" in recipe for one in build)

@@ -110,7 +110,7 @@ def test_a_missing_extra_is_named() -> None:
         "    try:\n        run()\n    except ImportError as error:\n        print(type(error).__name__, error)\n"
     )
     out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
-    assert out.count("gmds[repair]") == 2 and out.count(MissingExtra.__name__) == 2
+    assert out.count("pip install 'pymeshlab>=2023.12'") == 2 and out.count(MissingExtra.__name__) == 2
 
 
 def test_importing_repair_does_not_import_pymeshlab() -> None:

@@ -64,7 +64,8 @@ def test_absent_extras_are_no_problem_and_say_how_to_get_them(quick: dict[str, s
     code, found, problems = doctor()
     assert (code, problems) == (0, [])
     assert found["extra viz"]["state"] == found["extra repair"]["state"] == "absent"
-    assert "pip install 'gmds[viz]'" in found["extra viz"]["advice"]
+    assert found["extra viz"]["advice"].startswith("pip install 'matplotlib>=3.8' 'plotly>=6' ")
+    assert "(the extra 'viz')" in found["extra viz"]["advice"]
 
 
 def test_old_missing_and_broken_packages_are_problems(quick: dict[str, str], monkeypatch: pytest.MonkeyPatch) -> None:

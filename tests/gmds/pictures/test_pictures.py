@@ -107,7 +107,7 @@ def test_without_pyvista_the_picture_is_drawn_and_the_extra_named(
     answer: Correspondence, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(gmds.pictures.offscreen, "_installed", lambda: False)
-    assert "pip install 'gmds[viz]'" in answer.picture(tmp_path / "map.png", pixels=60)
+    assert "pip install 'matplotlib>=3.8'" in answer.picture(tmp_path / "map.png", pixels=60)
     assert (tmp_path / "map.png").exists()
 
 
