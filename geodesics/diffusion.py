@@ -6,15 +6,16 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from geodesics._kernels.spreading import closer_rows
 from geodesics.arrays import Floats, Integers
-from geodesics.distance import FEWER_POINTS
+from geodesics.distance import FEWER_POINTS, as_points
 from geodesics.euclidean import euclidean_distances
 from geodesics.memory import table
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
-from geodesics.spectrum import Spectrum
+from geodesics.spectrum import Spectrum, as_spectrum
 from geodesics.topology.components import vertex_components
 
 # Rows of a field that are computed at a time, so that temporaries stay in the cache. Measured with 1,500 rows of 5,000
@@ -31,23 +32,21 @@ class _SpectralDistance:
     mesh: Mesh
     spectrum: Spectrum
     embedding: Floats
-    _linked: bool  # whether points of different components are at a finite distance
 
-    def _set(self, spectrum: Spectrum, embedding: Floats, linked: bool) -> None:
+    def _set(self, spectrum: Spectrum, embedding: Floats) -> None:
         embedding = np.ascontiguousarray(embedding)
         embedding.setflags(write=False)
         object.__setattr__(self, "mesh", spectrum.mesh)
         object.__setattr__(self, "spectrum", spectrum)
         object.__setattr__(self, "embedding", embedding)
-        object.__setattr__(self, "_linked", linked)
 
-    def field(self, points: SurfacePoints) -> Floats:
+    def field(self, points: SurfacePoints | ArrayLike) -> Floats:
         """Distances from each of p points to every vertex.
 
         Parameters
         ----------
-        points : SurfacePoints
-            Points of the mesh.
+        points : SurfacePoints or array_like of int
+            Points of the mesh, or vertices.
 
         Returns
         -------
@@ -59,15 +58,14 @@ class _SpectralDistance:
         WouldExceedMemory
             E501 when the table does not fit.
         """
+        points = as_points(self.mesh, points)
         result = table(len(points), self.mesh.n_vertices, "distances", FEWER_POINTS)
         here = points.interpolate(self.embedding)
         for start in range(0, len(points), _BLOCK):
             rows = slice(start, start + _BLOCK)
             result[rows] = euclidean_distances(here[rows], self.embedding)
         label = vertex_components(self.mesh)
-        result[:, label < 0] = np.inf
-        if not self._linked:
-            result[label[self.mesh.faces[points.face, 0]][:, None] != label] = np.inf
+        result[label[self.mesh.faces[points.face, 0]][:, None] != label] = np.inf
         return result
 
     def spreader(self) -> Callable[[int, Floats], tuple[Integers, Floats]]:
@@ -78,10 +76,10 @@ class _SpectralDistance:
         callable
             (vertex, nearest (n,)) -> the vertices closer to this one than `nearest`, and their distances.
         """
-        rows, label, linked = self.embedding, vertex_components(self.mesh), self._linked
+        rows, label = self.embedding, vertex_components(self.mesh)
 
         def closer(vertex: int, nearest: Floats) -> tuple[Integers, Floats]:
-            return closer_rows(rows, label, linked, vertex, nearest)
+            return closer_rows(rows, label, vertex, nearest)
 
         return closer
 
@@ -91,7 +89,7 @@ class DiffusionDistance(_SpectralDistance):
 
     .. math:: d_t^2(s, s') = \sum_i e^{-2 \lambda_i t} (\phi_i(s) - \phi_i(s'))^2
 
-    It is finite between components, as it compares the heat that arrives everywhere.
+    Infinite between components: no heat goes from one to the other.
 
     Parameters
     ----------
@@ -119,11 +117,12 @@ class DiffusionDistance(_SpectralDistance):
     time: float
 
     def __init__(self, spectrum: Spectrum, time: float) -> None:
+        spectrum = as_spectrum(spectrum)
         if not time >= 0:
             raise ValueError(f"time must be >= 0 (in units of the area of the surface), not {time}")
         object.__setattr__(self, "time", float(time))
         fade = np.exp(-spectrum.eigenvalues * (time * spectrum.mass.sum()))
-        self._set(spectrum, spectrum.eigenfunctions * fade, linked=True)
+        self._set(spectrum, spectrum.eigenfunctions * fade)
 
 
 class CommuteTimeDistance(_SpectralDistance):
@@ -146,8 +145,9 @@ class CommuteTimeDistance(_SpectralDistance):
     """
 
     def __init__(self, spectrum: Spectrum) -> None:
+        spectrum = as_spectrum(spectrum)
         values, functions = _positive_part(spectrum)
-        self._set(spectrum, functions / np.sqrt(2 * values), linked=False)
+        self._set(spectrum, functions / np.sqrt(2 * values))
 
 
 class BiharmonicDistance(_SpectralDistance):
@@ -171,8 +171,9 @@ class BiharmonicDistance(_SpectralDistance):
     """
 
     def __init__(self, spectrum: Spectrum) -> None:
+        spectrum = as_spectrum(spectrum)
         values, functions = _positive_part(spectrum)
-        self._set(spectrum, functions / values, linked=False)
+        self._set(spectrum, functions / values)
 
 
 def _positive_part(spectrum: Spectrum) -> tuple[Floats, Floats]:

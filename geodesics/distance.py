@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Any, Protocol
+
+from numpy.typing import ArrayLike
 
 from geodesics.arrays import Floats
+from geodesics.errors import IndexOutOfRange
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
 
@@ -40,3 +43,24 @@ class Distance(Protocol):
         array of shape (p, n)
             Distances in the unit of the metric; +inf at vertices that cannot be reached.
         """
+
+
+def as_distance(distance: Any) -> Distance:
+    """The distance that it is. Raises `TypeError` that says how to make one of a mesh, a metric or a spectrum."""
+    if hasattr(distance, "mesh") and callable(getattr(distance, "field", None)):
+        return distance  # type: ignore[no-any-return]
+    kind = type(distance).__name__
+    raise TypeError(f"a distance is expected, not {kind}; for example geodesics.GeodesicDistance(mesh)")
+
+
+def as_points(mesh: Mesh, points: SurfacePoints | ArrayLike) -> SurfacePoints:
+    """Points of a mesh, from points or from the numbers of vertices, one or several.
+
+    Raises `MeshError` (E105) for vertices that do not exist and for points of a mesh with other counts.
+    """
+    if not isinstance(points, SurfacePoints):
+        return SurfacePoints.at_vertices(mesh, points)
+    given = points.mesh
+    if given is not mesh and (given.n_vertices, given.n_faces) != (mesh.n_vertices, mesh.n_faces):
+        raise IndexOutOfRange(f"the points lie on another mesh, {given!r}, and not on {mesh!r}")
+    return points

@@ -8,7 +8,8 @@ import scipy.sparse as sp
 from geodesics import intrinsic
 from geodesics.arrays import Floats, Integers
 from geodesics.delaunay import IntrinsicTriangulation, intrinsic_delaunay
-from geodesics.metric import Metric
+from geodesics.mesh import Mesh
+from geodesics.metric import Metric, as_metric
 from geodesics.moved_paths import names_moved
 
 
@@ -30,7 +31,7 @@ def cotangent_matrix(
     return (off - sp.diags(np.asarray(off.sum(axis=1)).ravel())).tocsr()
 
 
-def stiffness(metric: Metric) -> sp.csr_matrix:
+def stiffness(metric: Metric | Mesh) -> sp.csr_matrix:
     r"""The stiffness matrix of (4.4), with free (Neumann) boundary.
 
     .. math:: a_{kl} = \int_S \langle \nabla \psi_k, \nabla \psi_l \rangle \, da
@@ -54,6 +55,7 @@ def stiffness(metric: Metric) -> sp.csr_matrix:
     lumped_mass, galerkin_mass : The other side of the eigenproblem.
     eigenpairs : Its solutions.
     """
+    metric = as_metric(metric)
     if metric.conformal_factor is not None:
         return cotangent_matrix(intrinsic_delaunay(metric.mesh), metric.mesh.n_vertices)
     return cotangent_matrix(IntrinsicTriangulation(metric.mesh.faces, metric.l_sq), metric.mesh.n_vertices)
@@ -87,7 +89,7 @@ def tensor_stiffness(faces: Integers, tensor: Floats, n: int) -> sp.csr_matrix:
     return _assembled(faces, element, n)
 
 
-def lumped_mass(metric: Metric) -> sp.dia_matrix:
+def lumped_mass(metric: Metric | Mesh) -> sp.dia_matrix:
     """The diagonal mass matrix: :math:`b_{kl}` of (4.4) summed over each row.
 
     Parameters
@@ -104,10 +106,11 @@ def lumped_mass(metric: Metric) -> sp.dia_matrix:
     --------
     galerkin_mass : Before rows are summed.
     """
+    metric = as_metric(metric)
     return sp.diags(metric.mass)
 
 
-def galerkin_mass(metric: Metric) -> sp.csr_matrix:
+def galerkin_mass(metric: Metric | Mesh) -> sp.csr_matrix:
     r"""The full mass matrix of (4.4).
 
     .. math:: b_{kl} = \int_S \psi_k \psi_l \, da
@@ -128,6 +131,7 @@ def galerkin_mass(metric: Metric) -> sp.csr_matrix:
     --------
     lumped_mass : Its rows summed to the diagonal.
     """
+    metric = as_metric(metric)
     n = metric.mesh.n_vertices
     pattern = np.ones((3, 3)) + np.eye(3)
     if metric.conformal_factor is None:

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
 
 from geodesics import intrinsic
 from geodesics.arrays import Floats
@@ -65,3 +68,15 @@ def conformal(mesh: Mesh, factor: Floats) -> Metric:
     l_sq = intrinsic.conformal_lengths(intrinsic.squared_lengths(mesh.vertices, mesh.faces), mesh.faces, factor)
     mass = factor * vertex_areas(*intrinsic_delaunay(mesh), mesh.n_vertices)
     return Metric(mesh, l_sq, mass, factor)
+
+
+def as_metric(metric: Any) -> Metric:
+    """A metric, or of a mesh its embedded metric. Raises `TypeError` that says how to make one."""
+    if isinstance(metric, Metric) or all(hasattr(metric, name) for name in ("mesh", "l_sq", "mass")):
+        return metric  # type: ignore[no-any-return]
+    try:
+        mesh = Mesh.from_object(metric)
+    except TypeError:
+        kind = type(metric).__name__
+        raise TypeError(f"a metric or a mesh is expected, not {kind}; for example geodesics.embedded(mesh)") from None
+    return conformal(mesh, np.ones(mesh.n_vertices))

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from geodesics.arrays import Bools, Floats, Integers
 from geodesics.caching import memoized
-from geodesics.distance import Distance
+from geodesics.distance import Distance, as_distance
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
 from geodesics.topology.components import vertex_components
@@ -76,7 +76,7 @@ def farthest_point_cells(distance: Distance, count: int, first: int | None = Non
 
     With a geodesic distance each front stops where it meets a smaller distance: O(n log n) for all samples together.
     """
-    mesh = distance.mesh
+    mesh = as_distance(distance).mesh
     eligible = _eligible(mesh).copy()
     if not 1 <= count <= eligible.sum():
         raise ValueError(f"count must be 1 to {eligible.sum()}, not {count}")
@@ -113,7 +113,7 @@ def voronoi_cells(distance: Distance, samples: ArrayLike) -> Integers:
     --------
     farthest_point_sampling : Samples that are evenly spread.
     """
-    n, closer = distance.mesh.n_vertices, _spreader(distance)
+    n, closer = as_distance(distance).mesh.n_vertices, _spreader(distance)
     nearest, cell = np.full(n, np.inf), np.full(n, -1, dtype=np.int64)
     for i, vertex in enumerate(np.asarray(samples, dtype=np.int64).reshape(-1)):
         where, values = closer(int(vertex), nearest)

@@ -10,13 +10,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geodesics.arrays import Floats
+from geodesics.distance import as_points
 from geodesics.memory import table
 from geodesics.moved_paths import names_moved
 from geodesics.points import SurfacePoints
-from geodesics.spectrum import Spectrum
+from geodesics.spectrum import Spectrum, as_spectrum
 
 
-def heat_kernel(spectrum: Spectrum, time: float, points: SurfacePoints) -> Floats:
+def heat_kernel(spectrum: Spectrum, time: float, points: SurfacePoints | ArrayLike) -> Floats:
     r"""The heat kernel from points to all vertices (sec. 3).
 
     .. math:: h_t(s, s') = \sum_i e^{-\lambda_i t} \phi_i(s) \phi_i(s')
@@ -27,8 +28,8 @@ def heat_kernel(spectrum: Spectrum, time: float, points: SurfacePoints) -> Float
         k eigenpairs of the surface in some metric.
     time : float
         :math:`t` in units of the area of the surface, not negative.
-    points : SurfacePoints
-        The p points s.
+    points : SurfacePoints or array_like of int
+        The p points s, or vertices.
 
     Returns
     -------
@@ -46,6 +47,7 @@ def heat_kernel(spectrum: Spectrum, time: float, points: SurfacePoints) -> Float
     --------
     heat_kernel_signature : Its diagonal.
     """
+    points = as_points(as_spectrum(spectrum).mesh, points)
     fade = np.exp(-spectrum.eigenvalues * (_times(time)[0] * spectrum.mass.sum()))
     result = table(len(points), len(spectrum.mass), "values of the heat kernel", "take fewer points at a time")
     return np.matmul(points.interpolate(spectrum.eigenfunctions) * fade, spectrum.eigenfunctions.T, out=result)
@@ -83,6 +85,7 @@ def heat_kernel_signature(spectrum: Spectrum, times: ArrayLike) -> Floats:
     scaled_heat_kernel_signature : Normalised at every time.
     scale_invariant_heat_kernel_signature : Its Fourier magnitudes.
     """
+    spectrum = as_spectrum(spectrum)
     return spectrum.eigenfunctions**2 @ _fading(spectrum, times)
 
 
@@ -149,6 +152,7 @@ def scale_invariant_heat_kernel_signature(
     --------
     heat_kernel_signature : The signature that is transformed.
     """
+    spectrum = as_spectrum(spectrum)
     t = resolved_times(spectrum, 64) if times is None else _times(times)
     if len(t) < 3 or np.any(t <= 0) or not np.allclose(t[1:] / t[:-1], t[1] / t[0], rtol=1e-6):
         raise ValueError("times must be at least three positive numbers that grow by a constant factor")

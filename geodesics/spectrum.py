@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy.linalg
@@ -15,7 +16,7 @@ from geodesics.errors import EigensolverFailed
 from geodesics.laplacian import lumped_mass, stiffness
 from geodesics.linalg.lanczos import smallest_eigenpairs
 from geodesics.mesh import Mesh
-from geodesics.metric import Metric
+from geodesics.metric import Metric, as_metric
 from geodesics.threads import on_one_blas_thread
 
 # Shift of the Laplacian per eigenpair, in units of 1 / area; by Weyl's law, 4 pi of these units per eigenpair, it is a
@@ -53,9 +54,17 @@ class Spectrum:
     eigenfunctions: Floats
 
 
+def as_spectrum(spectrum: Any) -> Spectrum:
+    """The spectrum that it is. Raises `TypeError` that says how to make one of a mesh or a metric."""
+    if all(hasattr(spectrum, name) for name in ("mesh", "mass", "eigenvalues", "eigenfunctions")):
+        return spectrum  # type: ignore[no-any-return]
+    kind = type(spectrum).__name__
+    raise TypeError(f"a spectrum is expected, not {kind}; for example geodesics.eigenpairs(mesh, 100)")
+
+
 @on_one_blas_thread
 def eigenpairs(
-    metric: Metric,
+    metric: Metric | Mesh,
     count: int,
     *,
     mass: Callable[[Metric], sp.spmatrix] = lumped_mass,
@@ -69,7 +78,7 @@ def eigenpairs(
     Parameters
     ----------
     metric : Metric
-        The metric, on a mesh of n vertices.
+        The metric, on a mesh of n vertices; of a mesh the embedded one.
     count : int
         Number of eigenpairs; a mesh with fewer free vertices, or places where they are, gives as many as it has.
     mass : callable
@@ -103,6 +112,7 @@ def eigenpairs(
     """
     if count < 1:
         raise ValueError(f"count must be at least 1, not {count}")
+    metric = as_metric(metric)
     area, n = metric.mass.sum(), metric.mesh.n_vertices
     free = np.flatnonzero(metric.mass > 0 if fixed is None else (metric.mass > 0) & ~fixed)
     if len(free) == 0:

@@ -5,7 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from geodesics.arrays import Floats
-from geodesics.spectrum import Spectrum
+from geodesics.spectrum import Spectrum, as_spectrum
+
+# Range of the logarithms of eigenvalues: in a smaller one they are copies of one eigenvalue, as those of symmetric
+# surfaces are but for discretisation. Set by hand, far above the errors of eigenvalues (1e-8).
+NARROWEST = 1e-3
 
 
 def wave_kernel_signature(spectrum: Spectrum, n_energies: int = 100, width: float = 7.0) -> Floats:
@@ -14,6 +18,7 @@ def wave_kernel_signature(spectrum: Spectrum, n_energies: int = 100, width: floa
     .. math:: \mathrm{WKS}(s, e) = \frac{\sum_i \phi_i(s)^2 w_i(e)}{\sum_i w_i(e)}, \qquad
               w_i(e) = \exp\Big( - \frac{(e - \log \lambda_i)^2}{2 \sigma^2} \Big)
 
+    Where all eigenvalues are equal, all columns are about the same.
     Energies run evenly from :math:`\log \lambda_1 + 2 \sigma` to :math:`\log \lambda_{\max} - 2 \sigma`.
 
     Parameters
@@ -43,12 +48,13 @@ def wave_kernel_signature(spectrum: Spectrum, n_energies: int = 100, width: floa
     --------
     heat_kernel_signature : Low-pass instead of band-pass.
     """
+    spectrum = as_spectrum(spectrum)
     positive = spectrum.eigenvalues * spectrum.mass.sum() > 1e-6
     if np.count_nonzero(positive) < 2:
         raise ValueError("the wave kernel signature needs at least two positive eigenvalues")
     log = np.log(spectrum.eigenvalues[positive])
-    sigma = width * (log[-1] - log[0]) / (n_energies - 1 + 4 * width)
+    sigma = width * max(log[-1] - log[0], NARROWEST) / (n_energies - 1 + 4 * width)
     energies = np.linspace(log[0] + 2 * sigma, log[-1] - 2 * sigma, n_energies)
-    exponent = -((energies - log[:, None]) ** 2) / (2 * max(sigma, np.finfo(float).tiny) ** 2)
+    exponent = -((energies - log[:, None]) ** 2) / (2 * sigma**2)
     weights = np.exp(exponent - exponent.max(axis=0))
     return spectrum.eigenfunctions[:, positive] ** 2 @ (weights / weights.sum(axis=0))

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 import gmds
 from geodesics import Mesh, MeshError, read_mesh
 from geodesics.errors import FormatError
-from gmds.files.folders import mesh_files
+from gmds.files.folders import mesh_files, shape_names
 from gmds.files.table import write_table
 from gmds.landmarks.checking import place_on
 from gmds.landmarks.files import Landmarks, read_landmarks
@@ -158,10 +158,11 @@ def _draw(out: Path, one: Specimen, marks: Landmarks, up: Direction) -> None:
 
 def in_folder(folder: Path, template: Path) -> Iterator[tuple[str, Mesh]]:
     """The meshes of a folder but for the template; those that cannot be read are told and left out."""
-    for path in mesh_files(folder):
+    paths = mesh_files(folder)
+    for name, path in zip(shape_names(paths), paths, strict=True):
         if path.resolve() != template.resolve():
             try:
-                yield path.stem, read_mesh(path)
+                yield name, read_mesh(path)
             except (FormatError, MeshError) as error:
                 print(f"left out: {error}")
 

@@ -9,15 +9,15 @@ from geodesics.arrays import Floats, Integers
 
 
 @njit
-def closer_rows(rows: Floats, label: Integers, linked: bool, row: int, nearest: Floats) -> tuple[Integers, Floats]:
+def closer_rows(rows: Floats, label: Integers, row: int, nearest: Floats) -> tuple[Integers, Floats]:
     """The rows (n, k) whose distance from `row` is less than their `nearest` (n,), and that distance.
 
-    Rows with a negative `label` (n,) do not count, nor, unless all are `linked`, those with another than that of `row`.
+    Rows with a negative `label` (n,) do not count, nor those with another than that of `row`.
     """
     n, dim = rows.shape
     where, values, count = np.empty(n, np.int64), np.empty(n), 0
     for i in range(n):
-        if label[i] < 0 or not (linked or label[i] == label[row]):
+        if label[i] < 0 or label[i] != label[row]:
             continue
         limit, total = nearest[i] * nearest[i], 0.0
         for d in range(dim):

@@ -12,12 +12,12 @@ from numpy.typing import ArrayLike
 
 from geodesics._kernels import marching
 from geodesics.arrays import Floats, Integers
-from geodesics.distance import FEWER_POINTS
+from geodesics.distance import FEWER_POINTS, as_points
 from geodesics.fast_marching.front import corners, fresh_front, longest_edges
 from geodesics.fast_marching.seeds import seeds
 from geodesics.memory import table
 from geodesics.mesh import Mesh
-from geodesics.metric import Metric
+from geodesics.metric import Metric, as_metric
 from geodesics.points import SurfacePoints
 
 
@@ -31,8 +31,8 @@ class GeodesicDistance:
 
     Parameters
     ----------
-    metric : Metric
-        The metric, on a mesh of n vertices.
+    metric : Metric or Mesh
+        The metric, on a mesh of n vertices; of a mesh the embedded one.
     threads : int
         Sources that are marched at once, at most; the numbers do not depend on it.
 
@@ -50,18 +50,21 @@ class GeodesicDistance:
     metric: Metric
     threads: int = 2
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "metric", as_metric(self.metric))
+
     @property
     def mesh(self) -> Mesh:
         """The mesh at whose vertices distances are given."""
         return self.metric.mesh
 
-    def field(self, points: SurfacePoints, *, limit: float = np.inf) -> Floats:
+    def field(self, points: SurfacePoints | ArrayLike, *, limit: float = np.inf) -> Floats:
         """Distances from each of p points to every vertex.
 
         Parameters
         ----------
-        points : SurfacePoints
-            Points of the mesh.
+        points : SurfacePoints or array_like of int
+            Points of the mesh, or vertices.
         limit : float
             Where fronts stop, in the unit of the metric.
 
@@ -75,6 +78,7 @@ class GeodesicDistance:
         WouldExceedMemory
             E501 when the table does not fit.
         """
+        points = as_points(self.mesh, points)
         out = table(len(points), self.mesh.n_vertices, "distances", FEWER_POINTS)
         around = seeds(self.metric, points)
         out[:] = np.inf
@@ -98,7 +102,7 @@ class GeodesicDistance:
 
     def to_set(
         self,
-        points: SurfacePoints,
+        points: SurfacePoints | ArrayLike,
         *,
         values: ArrayLike | None = None,
         stop: ArrayLike | None = None,
@@ -108,8 +112,8 @@ class GeodesicDistance:
 
         Parameters
         ----------
-        points : SurfacePoints
-            Points of the mesh.
+        points : SurfacePoints or array_like of int
+            Points of the mesh, or vertices.
         values : array_like of shape (p,), optional
             Finite offsets in the unit of the metric; 0 by default.
         stop : array_like of int, optional
@@ -127,6 +131,7 @@ class GeodesicDistance:
         ValueError
             Unless there is one finite value per point.
         """
+        points = as_points(self.mesh, points)
         start = np.zeros(len(points)) if values is None else np.array(values, dtype=np.float64)
         if start.shape != (len(points),) or not np.isfinite(start).all():
             raise ValueError(f"values must be {len(points)} finite numbers, one a point")

@@ -33,7 +33,9 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
             stream.flush()
             os.fsync(stream.fileno())
         os.replace(temporary, path)
-    except BaseException:
+    except BaseException as error:
+        if isinstance(error, OSError) and error.filename == str(temporary):  # a name that nobody gave
+            error.filename, error.filename2 = str(path), None
         with contextlib.suppress(OSError):
             temporary.unlink()
         raise

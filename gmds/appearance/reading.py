@@ -85,7 +85,8 @@ def read_look(path: Path, mesh: Mesh, texture: Path | None = None) -> Look:
     near = 1e-6 * np.abs(mesh.vertices).max()  # single precision has 24 bits, 6e-8
     if corners.shape != (mesh.n_faces, 3, 3) or np.abs(corners - mesh.vertices[mesh.faces]).max() > near:
         raise BadLook(
-            f"{path}: its faces are not in one piece; join its parts and materials into one and save it again"
+            f"{path}: its faces are not those of the mesh, as those of several parts, of several materials, or of more "
+            "than three corners; join the parts, triangulate, and save it again"
         )
     visual = loaded.visual
     if getattr(visual, "uv", None) is not None:

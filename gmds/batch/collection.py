@@ -13,7 +13,7 @@ from pathlib import Path
 from geodesics import Mesh, read_mesh
 from gmds.batch.pair_choice import Choice, Pairs, all_pairs
 from gmds.batch.pair_list import read_list
-from gmds.files.folders import mesh_files
+from gmds.files.folders import mesh_files, shape_names
 
 LONGEST_NAME = 100  # bytes of a name: two of them and a little more make the name of a file, which may have 255
 Given = str | os.PathLike[str] | Mapping[str, Mesh | str | os.PathLike[str]] | Sequence[str | os.PathLike[str]]
@@ -78,11 +78,11 @@ class Collection:
 
 
 def names(paths: Sequence[Path]) -> list[str]:
-    """A name for every file that can stand in the name of another: its stem, made different where two are the same.
+    """A name for every file that can stand in the name of another: as `shape_names`, all different.
 
     Never with two underscores in a row, so that A__B names one pair alone; nor the same but for capital letters.
     """
-    plain = [_plain(path.stem) for path in paths]
+    plain = [_plain(name) for name in shape_names(paths)]
     often = Counter(name.casefold() for name in plain)
     if max(often.values()) == 1:
         return plain

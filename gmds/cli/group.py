@@ -15,6 +15,8 @@ from typing import Any, NoReturn
 
 import click
 
+UNREADABLE, NOT_WRITTEN = "E202", "E502"  # of files, as in the records of a batch
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EIO)
 BAD_INPUT, UNFINISHED, INTERRUPTED = 1, 3, 130  # exit codes; click's own is 2, and a shell's after Ctrl-C 128 + 2
 
 
@@ -24,6 +26,13 @@ class Command(click.Command):
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
         self.params.append(_debug_option())
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run, unless one file would be lost to another."""
+        from gmds.cli.paths import refuse_collisions
+
+        refuse_collisions(ctx)
+        return super().invoke(ctx)
 
 
 class LazyGroup(click.Group):
@@ -104,8 +113,11 @@ def _fail_or_show(error: BaseException, debug: bool, message: str = "") -> NoRet
 
 
 def _plainly(error: OSError) -> str:
-    """The file and what is the matter with it; nothing where the system gave no file."""
-    return f"{error.filename}: {error.strerror}" if error.filename and error.strerror else ""
+    """The file and what is the matter with it, with the code that a batch gives it; nothing where there is no file."""
+    if not (error.filename and error.strerror) or isinstance(getattr(error, "code", None), str):
+        return ""
+    code = NOT_WRITTEN if error.errno in FULL else UNREADABLE
+    return f"{code}: {error.filename}: {error.strerror}"
 
 
 def _no_such_command(args: Sequence[str], known: Sequence[str]) -> str:

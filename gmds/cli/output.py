@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -12,6 +13,7 @@ import click
 
 Progress = Callable[[str, float], None]
 
+LOG_EVERY = 10.0  # seconds between two lines of a log, so that hours fill no disk; set by hand
 COMPILING = "compiling, this once"
 
 json_option = click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
@@ -33,6 +35,12 @@ def note(message: str) -> None:
     click.echo(message, err=True)
 
 
+def valid_count(answer: Any, as_json: bool) -> dict[str, Any]:
+    """How many vertices of the source have a counterpart, of how many."""
+    valid, vertices = int(answer.valid.sum()), len(answer.valid)
+    return {"valid": valid, "vertices": vertices} if as_json else {"valid": f"{valid} of {vertices}"}
+
+
 def tell_written(path: Path, why: str) -> None:
     """Name a picture that was written, and say `why` it was drawn otherwise than it should be, if it was."""
     note(f"wrote {path}")
@@ -40,10 +48,24 @@ def tell_written(path: Path, why: str) -> None:
         note(why)
 
 
+class _Log:
+    """Progress as lines on stderr, where that is no terminal: the first at once, the others not too often."""
+
+    def __init__(self, title: str) -> None:
+        self.title, self.started, self.told = title, time.monotonic(), -LOG_EVERY
+
+    def __call__(self, stage: str, fraction: float) -> None:
+        passed = time.monotonic() - self.started
+        if passed >= self.told + LOG_EVERY or fraction >= 1:
+            self.told = passed
+            note(f"{self.title}: {stage}, {100 * min(max(fraction, 0.0), 1.0):.0f} %, after {passed:.0f} s")
+
+
 @contextmanager
 def progress_bar(title: str, *, remaining: bool = False) -> Iterator[Progress]:
-    """A bar on stderr, moved by the function the block gets; nothing shows unless stderr is a terminal.
+    """A bar on stderr, moved by the function the block gets; it shows where stderr is a terminal.
 
+    `remaining` is for work of hours: where stderr is no terminal a line tells of it every `LOG_EVERY` seconds.
     It says so while kernels are being compiled. `remaining`: whether the time that is left is shown as well, as the
     speed of the last half hour foretells it.
     """
@@ -55,6 +77,9 @@ def progress_bar(title: str, *, remaining: bool = False) -> Iterator[Progress]:
     console = Console(stderr=True)
     left = (TextColumn("left"), TimeRemainingColumn()) if remaining else ()
     columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn(), *left)
+    if remaining and not console.is_terminal:
+        yield _Log(title)
+        return
     with Progress(
         *columns, console=console, transient=True, disable=not console.is_terminal, speed_estimate_period=1800
     ) as bars:

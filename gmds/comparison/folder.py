@@ -20,6 +20,7 @@ from geodesics.errors import EigensolverFailed, FormatError
 from geodesics.io import atomic_write
 from gmds.comparison import distortion, profiles
 from gmds.comparison.clustering import nearest
+from gmds.files.folders import shape_names
 from gmds.files.table import table_text
 from gmds.maps.npz_format import fingerprint
 from gmds.surface.measured import SMOOTHING
@@ -65,10 +66,10 @@ def compare_files(paths: Sequence[Path], store: Path, *, embed: int = 0, progres
     store.mkdir(parents=True, exist_ok=True)
     known: dict[str, tuple[Path, str, Floats]] = {}
     failures: dict[str, str] = {}
-    for i, path in enumerate(paths):
-        report(f"measuring {path.stem}", 0.5 * i / len(paths))
+    for i, (name, path) in enumerate(zip(shape_names(paths), paths, strict=True)):
+        report(f"measuring {name}", 0.5 * i / len(paths))
         try:
-            known[path.stem] = (path, *_measured(path, store))
+            known[name] = (path, *_measured(path, store / "profiles" / f"{name}.npz"))
         except (MeshError, FormatError, EigensolverFailed, OSError) as error:
             failures[path.name] = str(error)
     names = tuple(known)
@@ -88,11 +89,10 @@ def compare_files(paths: Sequence[Path], store: Path, *, embed: int = 0, progres
     return Compared(names, bounds, distortions, failures)
 
 
-def _measured(path: Path, store: Path) -> tuple[str, Floats]:
-    """What identifies the mesh in a file, and its profile, from the store if it is there."""
+def _measured(path: Path, kept: Path) -> tuple[str, Floats]:
+    """What identifies the mesh in a file, and its profile, from the file `kept` if it is there."""
     mesh = read_mesh(path)
     digest = fingerprint(mesh)["sha256"]
-    kept = store / "profiles" / f"{path.stem}.npz"
     try:
         with kept.open("rb") as file, np.load(file, allow_pickle=False) as archive:
             if str(archive["digest"]) == digest and str(archive["settings"]) == _SETTINGS:

@@ -17,6 +17,7 @@ from gmds.comparison.clustering import nearest, plane_map, tree
 from gmds.comparison.figure import comparison_figure
 from gmds.comparison.folder import Compared
 from gmds.files.table import write_table
+from gmds.pictures.figure import without_glyph_warnings
 
 Neighbour = tuple[str, int, str, float, float | None]  # shape, rank, other, bound, distortion
 
@@ -46,7 +47,7 @@ def write_comparison(compared: Compared, folder: Path, *, title: str = "Dissimil
     places = ((name, *map(float, place)) for name, place in zip(names, plane_map(matrix), strict=True))
     write_table(folder / "map.csv", ["shape", "x", "y"], places)
     figure = comparison_figure(names, matrix)
-    with atomic_write(folder / "compare.png") as stream:
+    with atomic_write(folder / "compare.png") as stream, without_glyph_warnings():
         figure.savefig(stream, format="png", metadata={"Software": None})
     page = _page(compared, neighbours, _svg(figure), title)
     with atomic_write(folder / "compare.html") as stream:
@@ -58,7 +59,7 @@ def _svg(figure: Any) -> str:
     import matplotlib
 
     text = io.StringIO()
-    with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": "gmds"}):
+    with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": "gmds"}), without_glyph_warnings():
         figure.savefig(text, format="svg", metadata={"Date": None})
     drawn = text.getvalue()
     return drawn[drawn.index("<svg") :]

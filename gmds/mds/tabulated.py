@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from geodesics import Distance, Mesh, SurfacePoints, farthest_point_sampling
 from geodesics.arrays import Floats, Integers
+from geodesics.distance import as_points
 from geodesics.topology.components import vertex_components
 
 
@@ -74,9 +76,9 @@ class TabulatedDistance:
         """The mesh whose vertices distances are given at."""
         return self.distance.mesh
 
-    def field(self, points: SurfacePoints) -> Floats:
+    def field(self, points: SurfacePoints | ArrayLike) -> Floats:
         """Distances (p, n) from each of p points to every vertex, by the distance itself."""
-        return self.distance.field(points)
+        return self.distance.field(as_points(self.mesh, points))
 
 
 def _scaled_component(

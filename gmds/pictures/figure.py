@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
-from collections.abc import Sequence
+import warnings
+from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -65,12 +67,20 @@ def composed(panels: Sequence[Panel], images: Sequence[Floats], title: str = "")
     return figure
 
 
+@contextlib.contextmanager
+def without_glyph_warnings() -> Iterator[None]:
+    """While text is drawn: signs that the font lacks become boxes, which one sees; nobody need be told on stderr."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message=r"Glyph .* missing from")
+        yield
+
+
 def encoded(figure: Any, ending: str) -> bytes:
     """A figure as a file with one of the endings in `FORMATS`, the same bytes every time."""
     import matplotlib
 
     stream = io.BytesIO()
-    with matplotlib.rc_context({"svg.hashsalt": "gmds"}):
+    with matplotlib.rc_context({"svg.hashsalt": "gmds"}), without_glyph_warnings():
         figure.savefig(stream, format=ending[1:], **FORMATS[ending])
     return stream.getvalue()
 

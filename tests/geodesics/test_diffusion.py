@@ -120,7 +120,7 @@ def test_a_sphere_looks_the_same_from_everywhere(make):
     np.testing.assert_allclose(profiles[0], profiles[1], atol=0.02 * d.max())
 
 
-@pytest.mark.parametrize("make", [CommuteTimeDistance, BiharmonicDistance])
+@each_distance
 def test_components_are_infinitely_far_apart(make):
     mesh = joined(bumpy_sphere(1), icosphere(1))
     n = mesh.n_vertices // 2

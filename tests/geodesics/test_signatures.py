@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from generated_shapes import bumpy_sphere, icosphere, joined, moved, with_isolated
 
-from geodesics import SurfacePoints, eigenpairs, embedded, scale_invariant
+from geodesics import Mesh, SurfacePoints, eigenpairs, embedded, scale_invariant
 from geodesics.signatures import (
     heat_kernel,
     heat_kernel_signature,
@@ -179,3 +179,12 @@ def test_bad_times_are_refused(spectrum, times):
 def test_uneven_times_are_refused(spectrum):
     with pytest.raises(ValueError, match="constant factor"):
         scale_invariant_heat_kernel_signature(spectrum, [1.0, 2.0, 3.0])
+
+
+def test_wave_kernel_of_repeated_eigenvalues_is_the_mean_of_the_squares():
+    """A regular tetrahedron has one positive eigenvalue, three times: all energies are that one."""
+    corners = np.array([[1.0, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]])
+    spectrum = eigenpairs(Mesh(corners, [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]), 4)
+    assert np.ptp(spectrum.eigenvalues[1:]) < 1e-9 * spectrum.eigenvalues[3]
+    found = wave_kernel_signature(spectrum, 10)
+    assert np.allclose(found, (spectrum.eigenfunctions[:, 1:] ** 2).mean(axis=1, keepdims=True), rtol=1e-6)

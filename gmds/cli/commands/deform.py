@@ -29,7 +29,7 @@ FILE = click.Path(path_type=Path)
 @click.option(
     "--remesh", type=click.IntRange(min=12), metavar="N", help="Triangulate anew in the end, about N vertices."
 )
-@click.option("--truth", type=FILE, help="Write the true map from MESH to the new mesh (.npz, as of gmds match).")
+@click.option("--truth", type=OutputFile(), help="Write the true map from MESH to the new mesh, as gmds match does.")
 @seed_option
 @json_option
 def command(

@@ -59,7 +59,9 @@ def command(output: Path, seed: int, as_json: bool) -> None:
     Correspondence.from_points(source, truth).save(output / "truth.npz")
     answer.save(output / "map.npz")
     result = {name: {**_judged(answers[name], truth), "cpu_seconds": seconds[name]} for name in answers}
-    emit({"pair": f"{source.n_vertices} -> {target.n_vertices} vertices", **result, **map_summary(answer)}, as_json)
+    counts = {"source": source.n_vertices, "target": target.n_vertices}
+    pair = counts if as_json else f"{source.n_vertices} -> {target.n_vertices} vertices"
+    emit({"pair": pair, **result, **map_summary(answer, as_json)}, as_json)
     chosen = protocol_subset(len(truth))
     errors = errors_of_maps(answer, truth[chosen], chosen)
     title, names = "An animal, and itself in another pose with a bigger head", ("source.ply", "target.ply")

@@ -9,7 +9,7 @@ import click
 
 from gmds.cli.landmark_options import given_landmarks, space_option, tolerance_option
 from gmds.cli.matching_options import matching_arguments, matching_options
-from gmds.cli.output import emit, json_option, note, progress_bar
+from gmds.cli.output import emit, json_option, note, progress_bar, valid_count
 from gmds.cli.paths import EndingIn
 from gmds.cli.settings import ConfiguredCommand
 from gmds.cli.view_options import view_options, write_views
@@ -61,21 +61,25 @@ def command(source: Path, target: Path, output: Path, as_json: bool, **options: 
     for line in answer.meta.get("notes", ()):
         note(f"gmds: {line}")
     answer.save(output)
-    emit({"map": str(output), "cpu_seconds": seconds, **map_summary(answer)}, as_json)
+    emit({"map": str(output), "cpu_seconds": seconds, **map_summary(answer, as_json)}, as_json)
     shown = {name: options[name] for name in ("report", "picture", "up")}
     write_views(answer, **shown, title=f"{source.name} → {target.name}", names=(source.name, target.name))
 
 
-def map_summary(answer: Any) -> dict[str, Any]:
-    """What can be said of a map without knowing the truth."""
+def map_summary(answer: Any, as_json: bool) -> dict[str, Any]:
+    """What can be said of a map without knowing the truth; numbers for JSON, words for people."""
     import numpy as np
+
+    ours, theirs = map(float, answer.overlap)
+    told = f"{ours:.1%} of the source, {theirs:.1%} of the target"
+    overlap = {"source": ours, "target": theirs} if as_json else told
 
     candidates = [{"stress": float(c.stress), "orientation": float(c.orientation)} for c in answer.candidates]
     return {
         "status": answer.status.name,
         "meaning": answer.status.value,
-        "valid": f"{int(answer.valid.sum())} of {len(answer.valid)}",
-        "overlap": "{:.1%} of the source, {:.1%} of the target".format(*answer.overlap),
+        **valid_count(answer, as_json),
+        "overlap": overlap,
         "median_distortion": float(np.median(answer.distortion)),
         "candidates": candidates,
     }

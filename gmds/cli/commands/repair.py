@@ -23,7 +23,7 @@ FILE = click.Path(path_type=Path)
 @click.option(
     "-o", "--output", required=True, type=OutputFile(), help="Where the new mesh goes; the ending says the format."
 )
-@click.option("--maps", type=FILE, help="Write a .npz with the old index of every new vertex and face, and back.")
+@click.option("--maps", type=OutputFile(), help="Write the old index of every new vertex and face, and back (.npz).")
 @click.option("--weld", is_flag=True, help="Join vertices at exactly equal positions.")
 @click.option(
     "--cut", is_flag=True, help="Take apart edges of more than two faces, and vertices that join several fans."

@@ -32,8 +32,7 @@ def command(query: Path, folder: Path, output: Path | None, words: int, seed: in
 
     Meshes are compared by bags of features (ShapeGoogle, Table 1 of the paper) whose vocabulary is learned from DIR and
     QUERY. A distance is from 0 (alike) to 2 (nothing in common). QUERY itself is left out where it lies in DIR; a mesh
-    that cannot be read or measured is named on stderr and left out, and the exit code is 3. Of files whose names differ
-    in their suffix alone, the first in the alphabet counts.
+    that cannot be read or measured is named on stderr and left out, and the exit code is 3.
     """
     from gmds.files.folders import SUFFIXES, mesh_files
     from gmds.files.table import write_table

@@ -9,7 +9,7 @@ import click
 
 from gmds.cli.fields import FILE, draw, picture_option, write_field
 from gmds.cli.group import Command
-from gmds.cli.output import emit, json_option, note
+from gmds.cli.output import emit, json_option, note, valid_count
 from gmds.cli.paths import EndingIn
 
 if TYPE_CHECKING:
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 
 MESHES = (".obj", ".ply", ".glb", ".vtp")
+VALUES = EndingIn(".npy", ".csv", ".txt", written=False)
+IMAGE = EndingIn(".png", ".jpg", ".jpeg", written=False)
 KINDS = ("numbers", "labels", "weights", "vectors", "colours")
 METHODS = {
     "numbers": "by interpolation",
@@ -34,10 +36,10 @@ METHODS = {
 @click.argument("map_file", metavar="MAP", type=FILE)
 @click.option("--source", required=True, type=FILE, help="Mesh the map starts on, which gets the values.")
 @click.option("--target", required=True, type=FILE, help="Mesh the map ends on, which has them.")
-@click.option("--values", type=EndingIn(".npy", ".csv", ".txt"), help="A row for every vertex of the target.")
+@click.option("--values", type=VALUES, help="A row for every vertex of the target.")
 @click.option("--kind", type=click.Choice(KINDS), help="What the values are.  [default: numbers]")
 @click.option("--labels", is_flag=True, help="The same as --kind labels.")
-@click.option("--texture", type=EndingIn(".png", ".jpg", ".jpeg"), help="Image that an OBJ has coordinates of.")
+@click.option("--texture", type=IMAGE, help="Image that an OBJ has coordinates of.")
 @click.option("--look", type=FILE, help="File with colours or texture, when that of the target has none; same faces.")
 @click.option(
     "-o", "--output", required=True, type=EndingIn(".npy", ".csv", *MESHES), help="Where the carried values go."
@@ -92,7 +94,7 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
         result |= _carry_look(answer, options["look"] or target, options["texture"], output)
     else:
         result |= _carry_values(answer, options["values"], kind, output, options["picture"])
-    emit({**result, "valid": f"{int(answer.valid.sum())} of {len(answer.valid)}"}, as_json)
+    emit({**result, **valid_count(answer, as_json)}, as_json)
 
 
 def _carry_look(answer: Correspondence, file: Path, texture: Path | None, output: Path) -> dict[str, Any]:

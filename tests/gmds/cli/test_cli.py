@@ -89,7 +89,7 @@ def test_match_writes_the_map_and_says_so(stand_in: None, pair: tuple[Path, Path
     assert result.exit_code == 0, result.output
     said = json.loads(result.stdout)
     assert said["status"] == "GOOD"
-    assert said["valid"] == "162 of 162"
+    assert said["valid"] == said["vertices"] == 162 and said["overlap"] == {"source": 1.0, "target": 1.0}
     assert (arrays(tmp_path / "map.npz")["vertex"] == np.arange(162)).all()
     assert by_index.options["rng"] == 7  # type: ignore[attr-defined]
     assert by_index.options["distance"] is None  # type: ignore[attr-defined]

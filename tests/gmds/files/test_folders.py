@@ -7,13 +7,14 @@ from pathlib import Path
 import pytest
 
 from geodesics.errors import FormatError
-from gmds.files.folders import mesh_files
+from gmds.files.folders import mesh_files, shape_names
 
 
 def test_mesh_files_are_found_once(tmp_path: Path) -> None:
     for name in ("b.ply", "a.off", "a.ply", "A.OBJ", "notes.txt", "t.vert", "t.tri"):
         (tmp_path / name).touch()
     (tmp_path / "folder.off").mkdir()
-    assert [path.name for path in mesh_files(tmp_path)] == ["A.OBJ", "a.off", "b.ply", "t.vert"]
+    assert [path.name for path in mesh_files(tmp_path)] == ["A.OBJ", "a.off", "a.ply", "b.ply", "t.vert"]
+    assert shape_names(mesh_files(tmp_path)) == ["A.OBJ", "a.off", "a.ply", "b", "t"]
     with pytest.raises(FormatError, match="no mesh files"):
         mesh_files(tmp_path / "folder.off")
