@@ -83,9 +83,9 @@ class _CandidateMap(NamedTuple):
 
 def _maps(answer: PointMap) -> list[PointMap]:
     """The map itself, then each of its candidates as a map of its own, of which no distortion is known."""
-    unrated = np.zeros(len(answer.valid))
+    unrated, status, meta = np.zeros(len(answer.valid)), MatchStatus.UNRATED, answer.meta
     others = (
-        _CandidateMap(answer.source, answer.target, one.points, answer.valid, unrated, answer.status, (), answer.meta)
+        _CandidateMap(answer.source, answer.target, one.points, answer.valid, unrated, status, (), meta)
         for one in answer.candidates
     )
     return [answer, *others]
@@ -96,8 +96,7 @@ def _names(answer: PointMap) -> list[tuple[str, str]]:
     names = [("Best map", "")]
     for i, one in enumerate(answer.candidates, start=1):
         kind = "mirrored" if one.orientation < -0.2 else "not mirrored" if one.orientation > 0.2 else "partly mirrored"
-        note = f"Stress {one.stress:.3g} (small is good), orientation {one.orientation:+.2f} (1 keeps, -1 mirrors)."
-        names.append((f"Candidate {i}, {kind}", note))
+        names.append((f"Candidate {i}, {kind}", "Counterparts are taken to be those of the best map."))
     return names
 
 

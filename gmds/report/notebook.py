@@ -10,7 +10,8 @@ from gmds.maps.point_map import PointMap
 from gmds.pictures.figure import composed, encoded
 from gmds.pictures.panels import map_panels
 from gmds.pictures.software import software
-from gmds.report.tables import facts, table_rows
+from gmds.report.tables import table_rows
+from gmds.report.told import facts
 
 PIXELS = 260  # across each view, so that three of them fit into a cell; set by hand
 MOST_FACES = 200_000  # faces of both surfaces, above which there is no picture: 3 s at 160,000, measured
@@ -27,7 +28,7 @@ def mimebundle(answer: PointMap) -> dict[str, str]:
 def _table(answer: PointMap) -> str:
     state = table_rows([("status", f"{answer.status.name}: {answer.status.value}")])
     hint = "<code>.report('map.html')</code> makes a page to turn it in a browser."
-    told = state + facts(answer, None, shares=_is_small(answer))
+    told = state + table_rows(facts(answer, None, shares=_is_small(answer)))
     return f'<table style="text-align:left">{told}</table><small>{hint}</small>'
 
 

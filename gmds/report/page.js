@@ -53,6 +53,7 @@ class Page {
       input.parentElement.title = known ? "" : "Known for the best map only";
       if (!known && input.checked) document.querySelector("input[name=mode]").checked = true;
     }
+    this.tell();
     const { map, mode } = this;
     at("help").textContent = mode.help;
     at("note").textContent = map.note;
@@ -67,18 +68,31 @@ class Page {
     this.mark(this.pinned);
   }
 
+  // the badge, the figures and the advice are those of the map that is shown
+  tell() {
+    const { told } = this.map;
+    const made = (tag, text) => Object.assign(document.createElement(tag), { textContent: text });
+    const both = (tag, first, second) => { const whole = document.createElement(tag); whole.append(first, second); return whole; };
+    at("badge").className = `badge ${told.badge}`;
+    at("badge").textContent = told.verdict;
+    at("status").textContent = told.status;
+    at("next").textContent = told.next;
+    at("cards").replaceChildren(...told.cards.map(([value, name]) => both("li", made("b", value), made("span", name))));
+    at("facts").replaceChildren(...told.facts.map(([name, value]) => both("tr", made("th", name), made("td", value))));
+  }
+
   async drawCharts() {
     const { map, mode, data } = this;
     const counts = map.histograms[mode.key];
     at("histogram-part").hidden = !counts;
-    at("curve-part").hidden = !data.maps[0].curve;
+    at("curve-part").hidden = !map.curve;
     if (counts) {
       at("histogram-title").textContent = `How the ${mode.label.toLowerCase()} is spread`;
       await drawHistogram(at("histogram"), mode, counts, (share) => `rgb(${Array.from(this.ramp(share))})`);
     }
     const known = data.maps.filter((one) => one.curve);
     const curves = known.map((one) => ({ name: one.name, share: one.curve }));
-    if (curves.length) await drawCurves(at("curve"), data.thresholds, curves, known.indexOf(map));
+    if (map.curve) await drawCurves(at("curve"), data.thresholds, curves, known.indexOf(map));
   }
 
   partner(side, vertex) {

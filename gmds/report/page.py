@@ -23,6 +23,7 @@ from gmds.report import tables
 from gmds.report.content import MATCHED_COLOUR, UNMATCHED_COLOUR, content
 from gmds.report.drawing import Drawing, drawing
 from gmds.report.packing import fingerprint_of, packed, packed_data
+from gmds.report.told import told
 
 SCRIPTS = ("unpack.js", "camera.js", "scene.js", "charts.js", "page.js", "controls.js")
 
@@ -79,23 +80,26 @@ def write_report(
     script = "".join(_part(name) for name in SCRIPTS)
     ramp = ", ".join(css(value_colours(np.linspace(0, 1, 10), 0, 1)))
     legend = np.array([MATCHED_COLOUR, UNMATCHED_COLOUR])
-    badge, verdict = tables.VERDICTS[answer.status]
+    words = told(answer, judged)
+    for one, of_it in zip(data["maps"], words, strict=True):
+        one["told"] = of_it.as_data()
+    best = words[0]
     page = Template(_part("report.html")).substitute(
         hashes=f"{fingerprint_of(library)} {fingerprint_of(script)}",
         style=Template(_part("report.css")).substitute(ramp=ramp, missing=css(np.array([MISSING]))[0]),
         title=html.escape(title),
-        badge=badge,
-        verdict=verdict,
-        status=html.escape(answer.status.value),
-        cards=tables.cards(answer, judged),
+        badge=best.badge,
+        verdict=best.verdict,
+        status=html.escape(best.status),
+        cards=tables.cards(best.cards),
         modes=tables.choices([(mode["key"], mode["label"]) for mode in data["modes"]]),
         swatches=tables.swatches(zip(css(legend), ("has a counterpart", "has none"), strict=True)),
         source=html.escape(names[0]),
         target=html.escape(names[1]),
         source_size=_size(answer.source, drawn[0]),
         target_size=_size(answer.target, drawn[1]),
-        advice=tables.advice(answer),
-        facts=tables.facts(answer, judged),
+        advice=tables.advice(best.next),
+        facts=tables.table_rows(best.facts),
         made=tables.made(answer),
         data=packed_data(data),
         library=_packed_library(),

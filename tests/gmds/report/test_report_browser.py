@@ -183,10 +183,20 @@ def test_switching_map_and_colours(answer: Correspondence, page: Any, file: Path
         return [f"rgb({r},{g},{b})" for r, g, b in rgb.reshape(-1, 3).tolist()]
 
     assert page.evaluate(painted) == expected(data["maps"][0]["colours"])
+    first = page.locator("#cards").inner_text()
+    assert "of the source has a counterpart" in first and "median distortion" in first
     page.select_option("#map", index=1)
     page.wait_for_function(f"({painted})()[5] === '{expected(data['maps'][1]['colours'])[5]}'")
     assert page.evaluate(painted) == expected(data["maps"][1]["colours"])
     assert page.locator("input[value=distortion]").is_disabled()
+    badge, facts = page.locator("#badge"), page.locator("#facts").inner_text()
+    assert (badge.inner_text(), badge.get_attribute("class")) == ("Candidate", "badge plain")
+    assert "another one to compare" in page.locator("#status").inner_text()
+    assert page.locator("#cards").inner_text().split("\n")[:2] == ["0.2", "stress (small is good)"]
+    assert "median distortion" not in page.locator("#cards").inner_text()
+    assert "orientation" in facts and "mean error" not in facts
+    assert page.locator("#next").inner_text().startswith("Compare it with the best map")
+    assert not page.locator("#curve").is_visible(), "the errors of this map are not known"
     other = answer.candidates[0].points
     page.fill("#go-vertex", "77")
     page.click("#go button")
@@ -194,6 +204,8 @@ def test_switching_map_and_colours(answer: Correspondence, page: Any, file: Path
     page.select_option("#map", index=0)
     page.wait_for_function(f"({painted})()[5] === '{expected(data['maps'][0]['colours'])[5]}'")
     assert int(read_out(page)["face"]) == answer.points.face[77], "a marked pair follows the map"
+    assert badge.inner_text() == "Not rated" and "mean error" in page.locator("#facts").inner_text()
+    assert page.locator("#cards").inner_text() == first
     for mode in ("distortion", "valid", "error"):
         before = page.evaluate(painted)
         page.check(f"input[value={mode}]", force=True)
@@ -286,3 +298,17 @@ def test_large_surfaces_are_drawn_as_copies_and_answer_at_once(running: Any, tmp
         }));
     }""")
     assert quickest < 100  # ms; 6 on a slow processor
+
+
+def test_figures_and_curve_are_those_of_the_candidate_shown(
+    answer: Correspondence, running: Any, tmp_path: Path
+) -> None:
+    errors = np.stack([np.linspace(0, 0.1, 1500), np.linspace(0.1, 0.9, 1500)])
+    write_report(tmp_path / "both.html", answer, errors=errors)
+    page = Visit(running, tmp_path / "both.html").page
+    widths = "() => document.querySelector('#curve').data.map((line) => line.line.width)"
+    assert "5.00\nmean error x100" in page.locator("#cards").inner_text() and page.evaluate(widths) == [3, 1.5]
+    page.select_option("#map", index=1)
+    page.wait_for_function(f"({widths})()[1] === 3")
+    assert "50.00\nmean error x100" in page.locator("#cards").inner_text()
+    assert "50.00" in page.locator("#facts").inner_text() and page.locator("#badge").inner_text() == "Candidate"
