@@ -9,6 +9,8 @@ from typing import Any
 
 import click
 
+COMPANIONS = {".obj": (".mtl", ".png"), ".vert": (".tri",), ".tri": (".vert",)}  # endings of files of one mesh
+
 
 class OutputFile(click.Path):
     """A path in a folder that can be written to."""
@@ -53,9 +55,15 @@ def refuse_collisions(ctx: click.Context) -> None:
         name, place = param.opts[-1], _identity(path)
         if place in taken:
             raise click.UsageError(f"{taken[place]} and {name} both write {str(path)!r}; give one another name", ctx)
+        place = next((one for one in map(_identity, _companions(path)) if one in read), place)
         if place in read:
             raise click.UsageError(f"{name} would overwrite {str(read[place])!r}, which is read; name another", ctx)
         taken[place] = name
+
+
+def _companions(path: Path) -> list[Path]:
+    """The file, and those that are written with it or may be."""
+    return [path, *(path.with_suffix(ending) for ending in COMPANIONS.get(path.suffix.lower(), ()))]
 
 
 def _paths(ctx: click.Context) -> list[tuple[click.Parameter, Path]]:

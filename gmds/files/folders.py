@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+import errno
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 
 from geodesics.errors import FormatError
 
-SUFFIXES = (".off", ".obj", ".ply", ".stl", ".glb", ".vert")
+SUFFIXES = (".off", ".obj", ".ply", ".stl", ".glb", ".gltf", ".vtk", ".vtp", ".vtu", ".gii", ".vert")
+PACKED = ".gz"  # may follow any of them
 
 
 def mesh_files(folder: Path) -> list[Path]:
     """The mesh files of a folder, in the order of their names; of a TOSCA pair the .vert. FormatError without any."""
     if not folder.is_dir():
-        raise FileNotFoundError(f"{folder} is not a folder")
-    found = sorted(p for p in folder.iterdir() if p.is_file() and p.suffix.lower() in SUFFIXES)
+        raise FileNotFoundError(errno.ENOENT, "there is no such folder", str(folder))
+    found = sorted(p for p in folder.iterdir() if p.is_file() and _unpacked(p).suffix.lower() in SUFFIXES)
     if not found:
         raise FormatError(f"{folder} has no mesh files ({', '.join(SUFFIXES)})")
     return found
@@ -23,5 +25,11 @@ def mesh_files(folder: Path) -> list[Path]:
 
 def shape_names(paths: Sequence[Path]) -> list[str]:
     """What shapes in files are called: the name without its suffix, or with it where two are the same but for it."""
-    often = Counter(path.stem.casefold() for path in paths)
-    return [path.stem if often[path.stem.casefold()] == 1 else path.name for path in paths]
+    stems = [_unpacked(path).stem for path in paths]
+    often = Counter(stem.casefold() for stem in stems)
+    return [stem if often[stem.casefold()] == 1 else path.name for stem, path in zip(stems, paths, strict=True)]
+
+
+def _unpacked(path: Path) -> Path:
+    """The path of what is packed in a file, else its own."""
+    return path.with_suffix("") if path.suffix.lower() == PACKED else path

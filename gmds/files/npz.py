@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import math
 import os
 import stat
@@ -30,7 +31,7 @@ class PickledArray(ValueError):
 def opened(path: Path) -> Iterator[IO[bytes]]:
     """A regular file; `OSError` for anything else, as opening a pipe would wait for ever."""
     if not stat.S_ISREG(os.stat(path).st_mode):
-        raise OSError(f"{path} is not a regular file")
+        raise OSError(errno.EINVAL, "it is not a regular file", str(path))
     with path.open("rb") as stream:
         yield stream
 

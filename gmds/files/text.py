@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 from pathlib import Path
 
 
@@ -11,7 +12,7 @@ def read_text(path: Path, too_large: type[Exception], largest: int) -> str:
     Raises `too_large`, `UnicodeDecodeError`, and `OSError` for what is not there or no regular file.
     """
     if path.exists() and not path.is_file():  # opening a pipe would wait for ever
-        raise OSError(f"{path} is not a regular file")
+        raise OSError(errno.EINVAL, "it is not a regular file", str(path))
     if path.stat().st_size > largest:
         raise too_large(f"{path} is larger than {largest // 1_000_000} MB")
     return path.read_text(encoding="utf-8-sig")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import errno
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +31,7 @@ def read_values(path: Path, count: int, *, labels: bool = False) -> NDArray[Any]
     Text holds numbers, float64; with `labels` whole numbers, int64, or else words. Raises `BadValuesFile`.
     """
     if path.exists() and not path.is_file():
-        raise OSError(f"{path} is not a regular file")
+        raise OSError(errno.EINVAL, "it is not a regular file", str(path))
     values = _array(path) if path.suffix.lower() == ".npy" else _from_text(path, count, labels)
     if values.ndim == 0 or len(values) != count:
         rows = "a single value" if values.ndim == 0 else f"{len(values)} rows"

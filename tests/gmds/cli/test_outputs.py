@@ -57,6 +57,8 @@ def test_two_outputs_are_two_files(pair: tuple[Path, Path], tmp_path: Path) -> N
         ("deform", "a.ply", "noise", "-o", "a.ply"),
         ("match", "a.ply", "b.ply", "-o", "m.npz", "--report", "b.ply"),
         ("landmarks", "a.ply", "a.csv", "b.ply", "-o", "a.csv"),
+        ("repair", "t.vert", "-o", "t.tri"),
+        ("transfer", "m.npz", "--source", "a.ply", "--target", "b.ply", "--texture", "c.png", "-o", "c.obj"),
         ("transfer", "m.npz", "--source", "a.ply", "--target", "b.ply", "--values", "a.csv", "-o", "a.csv"),
     ],
 )
@@ -66,6 +68,8 @@ def test_no_output_is_an_input(
     monkeypatch.chdir(tmp_path)
     os.link(pair[0], "link.ply")
     Path("a.csv").write_text("name,vertex\na,3\n")
+    Path("c.png").touch()
+    write_mesh(SHAPE, "t.vert")
     before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
     done = run(*args)
     assert done.exit_code == 2 and "would overwrite" in done.stderr and "which is read" in done.stderr, done.output
@@ -99,7 +103,15 @@ def test_errors_of_writing_name_the_file_that_was_asked_for(tmp_path: Path, monk
 def test_a_missing_file_has_a_code(tmp_path: Path) -> None:
     done = run("check", tmp_path / "none.ply")
     assert done.exit_code == 1 and done.stderr == f"gmds: E202: {tmp_path / 'none.ply'}: No such file or directory\n"
-    assert run("landmarks", tmp_path / "a.ply", tmp_path / "a.csv", "b", "-o", tmp_path / "c.csv").exit_code == 1
+    missing = run("landmarks", tmp_path / "a.ply", tmp_path / "a.csv", "b", "-o", tmp_path / "c.csv")
+    assert missing.exit_code == 1 and missing.stderr.startswith("gmds: E202: ")
+    for command in ("compare", "batch"):
+        done = run(command, tmp_path / "none", "-o", tmp_path / "out")
+        assert done.exit_code == 1 and done.stderr.startswith("gmds: E202: "), done.stderr
+    (tmp_path / "a.csv").mkdir()
+    write_mesh(SHAPE, tmp_path / "a.ply")
+    done = run("landmarks", tmp_path / "a.ply", tmp_path / "a.csv", tmp_path / "a.ply", "-o", tmp_path / "c.csv")
+    assert done.stderr == f"gmds: E202: {tmp_path / 'a.csv'}: it is not a regular file\n"
 
 
 def test_a_batch_tells_how_far_it_is_where_there_is_no_terminal(capsys: pytest.CaptureFixture[str]) -> None:
