@@ -111,7 +111,8 @@ def read_parts(path: str | os.PathLike[str]) -> list[Part]:
     FormatError, MeshError, OSError
         As `read_mesh` does.
     """
-    return contents_of(path).parts
+    parts = contents_of(path).parts
+    return parts if len(parts) > 1 else []
 
 
 def write_mesh(mesh: Mesh, path: str | os.PathLike[str]) -> list[Note]:

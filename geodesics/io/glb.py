@@ -62,18 +62,21 @@ def _read(gltf: Gltf, size: int) -> Contents:
         notes.append(Note("W220", "info", f"{gltf.longer} bytes behind the declared end were passed over"))
     vertices = np.concatenate([np.empty((0, 3)), *joined.vertices])
     faces = np.concatenate([np.empty((0, 3), dtype=np.int64), *joined.faces])
-    return Contents(vertices, faces, notes, joined.parts if len(joined.parts) > 1 else [])
+    return Contents(vertices, faces, notes, joined.parts)
+
+
+def drawn(place: Placed) -> list[dict[str, Any]]:
+    """The primitives of a placed mesh that are surfaces, in the order of the parts of the mesh that is read."""
+    return [each for each in place.mesh["primitives"] if each.get("mode", TRIANGLES) in (TRIANGLES, STRIP, FAN)]
 
 
 def _add(gltf: Gltf, place: Placed, joined: _Joined, most_bytes: int) -> None:
     """The primitives of a placed mesh; those that have the same positions share vertices."""
     first: dict[tuple[Any, ...], tuple[int, int]] = {}
-    for primitive in place.mesh["primitives"]:
+    joined.others += len(place.mesh["primitives"]) - len(drawn(place))
+    for primitive in drawn(place):
         gltf.refuse_draco(primitive)
         mode = primitive.get("mode", TRIANGLES)
-        if mode not in (TRIANGLES, STRIP, FAN):
-            joined.others += 1
-            continue
         attributes = primitive["attributes"]
         used = (attributes["POSITION"], repr(primitive.get("targets")), attributes.get("JOINTS_0"))
         if used not in first:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 from geodesics.errors import BadPolygon, IndexOutOfRange, TruncatedFile
@@ -20,7 +21,7 @@ def read_obj(data: bytes, path: Path) -> Contents:
     Counts in the comments `# Vertices: n` and `# Faces: m` (MeshLab and `write_mesh` leave them) are checked.
     """
     vertex_rows, polygons, last = [], [], [""]
-    for row in rows(re.sub(rb"\\\r?\n", b"  ", data), path):
+    for row in statements(data, path):
         last = row.words
         if row.words[0] == "v":
             vertex_rows.append(row)
@@ -33,6 +34,11 @@ def read_obj(data: bytes, path: Path) -> Contents:
         refuse_cut_face(data, faces, len(vertices), 1, path, any_size=True)
     triangles, slots, notes = split(list(map(len, faces)), [corner for face in faces for corner in face], vertices)
     return Contents(vertices, triangles, notes, slots=slots)
+
+
+def statements(data: bytes, path: Path) -> Iterator[Row]:
+    """The lines of the file, those that a backslash continues made one."""
+    return rows(re.sub(rb"\\\r?\n", b"  ", data), path)
 
 
 def _corners(row: Row, defined: int, n_vertices: int, path: Path) -> list[int]:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,6 +47,17 @@ class TextColumns:
             sizes.append(size)
             flat += [whole(word, where) for word in row.words[at + 1 : at + 1 + size]]
         return np.array(sizes, dtype=np.int64), np.clip(np.array(flat, dtype=object), -1, 2**62).astype(np.int64)
+
+    def number_lists(self, place: int) -> tuple[Integers, Floats]:
+        """A list property of any numbers: lengths (n,) and content."""
+        at = self.starts[:, place].tolist()
+        sizes = [whole(row.words[i], f"{self.path}, line {row.line}") for row, i in zip(self.rows, at, strict=True)]
+        flat = [
+            numbers([row], i + 1, self.path, size, unknown=True).ravel()
+            for row, i, size in zip(self.rows, at, sizes, strict=True)
+            if size
+        ]
+        return np.array(sizes, dtype=np.int64), np.concatenate([np.empty(0), *flat])
 
     def place(self, row: int) -> str:
         """Of a row, for messages."""
@@ -99,13 +111,22 @@ class BinaryColumns:
         each = self.element.properties[place]
         if each.kind[0] == "f":
             raise BadToken(f"{self.path}: the {each.name[:40]} are of type {each.kind}, not integers")
-        width, sizes = int(each.kind[1]), self.sizes[:, place]
-        many = np.repeat(np.cumsum(sizes) - sizes, sizes)
-        at = np.repeat(self.starts[:, place] + int(each.size[1]), sizes) + width * (np.arange(len(many)) - many)
-        values = self._gathered(at, each.kind)
+        sizes, values = self._list(place)
         if each.kind == "u8":
             values = np.minimum(values, 2**62)
         return sizes, values.astype(np.int64)
+
+    def number_lists(self, place: int) -> tuple[Integers, Floats]:
+        """A list property of any numbers: lengths (n,) and content."""
+        sizes, values = self._list(place)
+        return sizes, values.astype(np.float64)
+
+    def _list(self, place: int) -> tuple[Integers, NDArray[Any]]:
+        each, sizes = self.element.properties[place], self.sizes[:, place]
+        before = np.repeat(np.cumsum(sizes) - sizes, sizes)
+        within = np.arange(len(before)) - before
+        at = np.repeat(self.starts[:, place] + int(each.size[1]), sizes) + int(each.kind[1]) * within
+        return sizes, self._gathered(at, each.kind)
 
     def _gathered(self, at: Integers, kind: str) -> NDArray[np.generic]:
         """The numbers that begin at these bytes."""

@@ -16,8 +16,9 @@ from geodesics.errors import FormatError, MissingExtra
 from geodesics.extras import how_to_install
 from geodesics.io.opening import read_bytes
 from geodesics.io.sniffing import sniff
+from gmds.appearance.surfaces import Shown, shown
 
-KINDS = ("obj", "ply", "glb")
+KINDS = ("obj", "ply", "glb", "gltf")
 
 
 class BadLook(FormatError):
@@ -38,11 +39,14 @@ class Look:
         Texture coordinates of the corners of faces, from (0, 0) at the lower left of the image to (1, 1).
     image : PIL.Image, optional
         What the coordinates lay on the surface.
+    notes : tuple of str
+        What of the file is not kept.
     """
 
     colours: NDArray[np.uint8] | None = None
     uv: Floats | None = None
     image: Any = None
+    notes: tuple[str, ...] = ()
 
 
 def read_look(path: Path, mesh: Mesh, texture: Path | None = None) -> Look:
@@ -66,8 +70,7 @@ def read_look(path: Path, mesh: Mesh, texture: Path | None = None) -> Look:
     Raises
     ------
     BadLook
-        E217, where faces are in another order than in the file, as with several materials, or for an image that cannot
-        be read.
+        E217, where the faces of the file are not those of the mesh, or for an image that cannot be read.
     MissingExtra
         E602, without Pillow.
 
@@ -80,41 +83,37 @@ def read_look(path: Path, mesh: Mesh, texture: Path | None = None) -> Look:
     kind = sniff(data, path)
     if kind not in KINDS:
         return Look()
-    loaded = _loaded(data, kind, path)
-    corners = loaded.vertices[loaded.faces]
+    found = _found(data, kind, path)
+    contents = found.contents
+    corners = contents.vertices[contents.triangles]
     near = 1e-6 * np.abs(mesh.vertices).max()  # single precision has 24 bits, 6e-8
-    if corners.shape != (mesh.n_faces, 3, 3) or np.abs(corners - mesh.vertices[mesh.faces]).max() > near:
+    if corners.shape != (mesh.n_faces, 3, 3):
         raise BadLook(
-            f"{path}: its faces are not those of the mesh, as those of several parts, of several materials, or of more "
-            "than three corners; join the parts, triangulate, and save it again"
+            f"{path}: its faces are {len(corners)}, those of the mesh {mesh.n_faces}; give a file of the same faces"
         )
-    visual = loaded.visual
-    if getattr(visual, "uv", None) is not None:
-        image = _image_inside(visual) if kind == "glb" else None
-        image = image if texture is None else _image(texture)
-        return Look(None, np.asarray(visual.uv, dtype=np.float64)[loaded.faces], image)
-    if visual.kind == "vertex":
-        colours = np.full((mesh.n_vertices, 4), 255, dtype=np.uint8)
-        colours[mesh.faces] = np.asarray(visual.vertex_colors, dtype=np.uint8)[loaded.faces]
-        return Look(colours if (colours[:, 3] < 255).any() else colours[:, :3])
-    return Look()
+    if not np.abs(corners - mesh.vertices[mesh.faces]).max() <= near:
+        raise BadLook(f"{path}: its faces lie elsewhere, or in another order, than those of the mesh")
+    notes: tuple[str, ...] = ()
+    if len(found.materials) > 1:
+        named = ", ".join(found.materials[:5])
+        notes = (f"{path} has {len(found.materials)} materials ({named}), which become one with one image",)
+    if found.uv is not None:
+        return Look(None, found.uv, found.image if texture is None else _image(texture), notes)
+    if found.colours is not None:
+        colours = np.full((mesh.n_vertices, found.colours.shape[1]), 255, dtype=np.uint8)
+        colours[mesh.faces] = found.colours[contents.triangles]
+        transparent = colours.shape[1] == 4 and bool((colours[:, 3] < 255).any())
+        return Look(colours if transparent else colours[:, :3], notes=notes)
+    return Look(notes=notes)
 
 
-def _loaded(data: bytes, kind: str, path: Path) -> Any:
-    import trimesh
-
+def _found(data: bytes, kind: str, path: Path) -> Shown:
     try:
-        loaded = trimesh.load(io.BytesIO(data), file_type=kind, process=False)
-    except Exception as error:  # whatever a reader of others raises on what it does not know
+        return shown(data, kind, path)
+    except (KeyError, IndexError, TypeError, AttributeError, OverflowError, ValueError) as error:
+        if hasattr(error, "code"):
+            raise
         raise BadLook(f"{path}: its colours cannot be read ({type(error).__name__}: {error})") from error
-    if isinstance(loaded, trimesh.Scene):
-        loaded = loaded.to_geometry()
-    return loaded
-
-
-def _image_inside(visual: Any) -> Any:
-    material = getattr(visual, "material", None)
-    return getattr(material, "baseColorTexture", None) or getattr(material, "image", None)
 
 
 def _image(path: Path) -> Any:

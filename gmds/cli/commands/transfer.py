@@ -102,6 +102,8 @@ def _carry_look(answer: Correspondence, file: Path, texture: Path | None, output
     from gmds.appearance import Look, carry_uv, read_look, write_look
 
     look = read_look(file, answer.target, texture)
+    for told in look.notes:
+        note(told)
     if look.uv is not None:
         uv, across = carry_uv(answer, look.uv)
         files = write_look(output, answer.source, Look(uv=uv, image=look.image))

@@ -166,7 +166,7 @@ def test_files_whose_look_can_not_be_used(tmp_path: Path) -> None:
     assert read_look(tmp_path / "m.ply", TARGET).colours is None
     write_mesh(TARGET, tmp_path / "m.off")
     assert read_look(tmp_path / "m.off", TARGET).uv is None
-    with pytest.raises(BadLook, match=r"not those of the mesh, as those of several parts, .* triangulate"):
+    with pytest.raises(BadLook, match="give a file of the same faces"):
         read_look(tmp_path / "m.ply", icosphere(2))
     write_look(tmp_path / "m.obj", TARGET, Look(uv=unwrapped(TARGET)))
     pytest.importorskip("PIL")
