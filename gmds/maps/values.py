@@ -55,7 +55,7 @@ def carry(points: SurfacePoints, values: NDArray[Any], labels: bool | None = Non
     return _blend(corners, points.barycentric)
 
 
-def carry_weights(points: SurfacePoints, weights: ArrayLike) -> Floats:
+def carry_weights(points: SurfacePoints, weights: ArrayLike, *, most: int | None = None) -> Floats:
     """Weights per vertex, as of bones in skinning, as weights per point: interpolated, rows sum to 1.
 
     A vertex may have no weights, a row of 0, as one that no bone moves: a point has none where most of its corners,
@@ -67,6 +67,8 @@ def carry_weights(points: SurfacePoints, weights: ArrayLike) -> Floats:
         p points of a mesh with n vertices.
     weights : array_like of shape (n, k)
         Not negative, a column for each bone.
+    most : int, optional
+        How many bones may hold a point, the heaviest ones: four is what most game engines and glTF readers take.
 
     Returns
     -------
@@ -95,6 +97,9 @@ def carry_weights(points: SurfacePoints, weights: ArrayLike) -> Floats:
     clean[used] = given[used]
     carried = carry(points, _to_sum_one(clean), labels=False)
     carried[carried.sum(axis=1) < HELD] = 0
+    if most is not None and most < carried.shape[1]:
+        lightest = np.argsort(-carried, axis=1, kind="stable")[:, max(most, 1) :]
+        np.put_along_axis(carried, lightest, 0.0, axis=1)
     return np.asarray(_to_sum_one(carried), dtype=np.float64)
 
 

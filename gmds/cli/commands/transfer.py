@@ -39,6 +39,7 @@ METHODS = {
 @click.option("--values", type=VALUES, help="A row for every vertex of the target.")
 @click.option("--kind", type=click.Choice(KINDS), help="What the values are.  [default: numbers]")
 @click.option("--labels", is_flag=True, help="The same as --kind labels.")
+@click.option("--most", type=click.IntRange(1), metavar="BONES", help="Keep the heaviest weights of a vertex.")
 @click.option("--texture", type=IMAGE, help="Image that an OBJ has coordinates of.")
 @click.option("--look", type=FILE, help="File with colours or texture, when that of the target has none; same faces.")
 @click.option(
@@ -60,7 +61,7 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
     Values are
       numbers  interpolated on the triangle where a vertex goes
       labels   names, numbers or words: a vertex gets the one with the largest weight there, never a mean
-      weights  of bones, a column each: interpolated, rows kept summing to 1
+      weights  of bones, a column each: interpolated, rows kept summing to 1; where no bone holds most of a place, 0
       vectors  three columns, directions in space: turned as the map turns the surface, lengths kept
       colours  three or four columns, 0 to 255
 
@@ -72,6 +73,8 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
     The output is an array (.npy), a table (.csv), or the source with the values on its vertices: .ply and .vtp keep
     all of them (words by number, which is told), .obj and .glb colours. Without --values the look of the target's file
     is carried: its vertex colours (.ply, .obj, .glb), or its texture, to an .obj with a .mtl and a .png, or to a .glb.
+    Names, materials, bones and shapes to morph to of a scene are not carried, which is told; --kind weights carries
+    weights of bones from a table.
     Where the texture is cut, faces whose corners go to different sides take all of it from one side, stretched up to
     the seam; their number is told.
     A .glb with a texture is cut open along its seams: weld it (`gmds repair`), match that, and give the .glb to --look.
@@ -93,8 +96,20 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
             raise click.UsageError("--kind, --labels and --picture are for --values")
         result |= _carry_look(answer, options["look"] or target, options["texture"], output)
     else:
-        result |= _carry_values(answer, options["values"], kind, output, options["picture"])
+        if options["most"] and kind != "weights":
+            raise click.UsageError("--most is for --kind weights")
+        result |= _carry_values(answer, options["values"], kind, output, options["picture"], options["most"])
+    if is_mesh:
+        _tell_what_is_lost(source, options["look"] or target)
     emit({**result, **valid_count(answer, as_json)}, as_json)
+
+
+def _tell_what_is_lost(*files: Path) -> None:
+    from gmds.appearance.keeping import not_kept
+
+    for file in files:
+        if lost := not_kept(file):
+            note(f"not carried from {file}: {', '.join(lost)}")
 
 
 def _carry_look(answer: Correspondence, file: Path, texture: Path | None, output: Path) -> dict[str, Any]:
@@ -116,7 +131,9 @@ def _carry_look(answer: Correspondence, file: Path, texture: Path | None, output
     return {"carried": METHODS["colours"]}
 
 
-def _carry_values(answer: Correspondence, file: Path, kind: str, output: Path, picture: Path | None) -> dict[str, Any]:
+def _carry_values(
+    answer: Correspondence, file: Path, kind: str, output: Path, picture: Path | None, most: int | None
+) -> dict[str, Any]:
     """Values in a file, to a file; what was done."""
     from gmds.files.values import read_values
 
@@ -127,9 +144,11 @@ def _carry_values(answer: Correspondence, file: Path, kind: str, output: Path, p
         note("values are whole numbers and get interpolated; --labels carries them as names")
     if kind == "colours":
         given = _as_colours(given, file)
-    carried = _carried(answer, given, kind)
+    carried = _carried(answer, given, kind, most)
     table = carried.reshape(len(carried), -1)
     result: dict[str, Any] = {"columns": table.shape[1], "carried": METHODS[kind]}
+    if kind == "weights" and (unheld := int((table.sum(axis=1) == 0).sum())):
+        result["without_weights"] = unheld
     if output.suffix.lower() in MESHES:
         from gmds.appearance import Look, write_look
 
@@ -150,11 +169,11 @@ def _carry_values(answer: Correspondence, file: Path, kind: str, output: Path, p
     return result
 
 
-def _carried(answer: Correspondence, given: NDArray[Any], kind: str) -> NDArray[Any]:
+def _carried(answer: Correspondence, given: NDArray[Any], kind: str, most: int | None) -> NDArray[Any]:
     if kind == "weights":
         from gmds.maps.values import carry_weights
 
-        return carry_weights(answer.points, given.reshape(len(given), -1))
+        return carry_weights(answer.points, given.reshape(len(given), -1), most=most)
     if kind == "vectors":
         from gmds.maps.vectors import carry_vectors
 

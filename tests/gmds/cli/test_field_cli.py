@@ -283,7 +283,14 @@ def test_weights_keep_summing_to_one_and_vectors_turn(carry: list[object], tmp_p
     carried = np.load(tmp_path / "out.npy")
     assert np.allclose(carried.sum(axis=1), 1, atol=1e-14) and (carried >= 0).all() and (carried[:, 0] == 0).all()
     np.testing.assert_allclose(carried, blended(weights / weights.sum(axis=1, keepdims=True)), atol=1e-14)
-    weights[5] = 0
+    weights[:81] = 0
+    np.save(tmp_path / "w.npy", weights)
+    few = done(*carry, "--values", tmp_path / "w.npy", "--kind", "weights", "--most", 2, "-o", tmp_path / "few.npy")
+    sums = np.load(tmp_path / "few.npy").sum(axis=1)
+    assert set(np.round(sums, 12)) == {0, 1} and few["without_weights"] == (sums == 0).sum() > 0
+    assert ((np.load(tmp_path / "few.npy") > 0).sum(axis=1) <= 2).all()
+    assert "--kind weights" in refused(*carry, "--values", tmp_path / "w.npy", "--most", 2, "-o", tmp_path / "o.npy")
+    weights[5] = -1
     np.save(tmp_path / "w.npy", weights)
     assert "vertex 5" in refused(*carry, "--values", tmp_path / "w.npy", "--kind", "weights", "-o", tmp_path / "o.npy")
     np.save(tmp_path / "v.npy", MESH.vertices)

@@ -1,0 +1,36 @@
+"""What is told not to be carried: only what is there."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from file_cases import OBJ, OFF, glb, setting
+from other_formats import RIG, gltf, halves, skinned, with_bytes
+
+from gmds.appearance.keeping import not_kept
+
+QUAD = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"
+
+
+@pytest.mark.parametrize(
+    ("content", "lost"),
+    [
+        (OFF.encode(), []),
+        (OBJ.encode(), []),
+        (glb(), []),
+        (gltf(), []),
+        (b"usemtl skin\no dog\n" + OBJ.encode(), ["materials", "names of objects"]),
+        (QUAD.encode(), ["polygons of more than three corners (written as triangles)"]),
+        (glb(halves), ["names of parts", "names of materials"]),
+        (with_bytes(glb(skinned), RIG), ["bones and their weights", "shapes to morph to"]),
+        (glb(setting("animations", value=[{}])), ["animations"]),
+    ],
+)
+def test_what_is_lost(tmp_path: Path, content: bytes, lost: list[str]) -> None:
+    (tmp_path / "a").write_bytes(content)
+    assert not_kept(tmp_path / "a") == lost
+
+
+def test_a_file_that_is_two(tmp_path: Path) -> None:
+    assert not_kept(tmp_path / "stem of a TOSCA shape") == []
