@@ -289,7 +289,8 @@ def test_weights_keep_summing_to_one_and_vectors_turn(carry: list[object], tmp_p
     sums = np.load(tmp_path / "few.npy").sum(axis=1)
     assert set(np.round(sums, 12)) == {0, 1} and few["without_weights"] == (sums == 0).sum() > 0
     assert ((np.load(tmp_path / "few.npy") > 0).sum(axis=1) <= 2).all()
-    assert "--kind weights" in refused(*carry, "--values", tmp_path / "w.npy", "--most", 2, "-o", tmp_path / "o.npy")
+    other = [*carry, "--values", tmp_path / "w.npy", "--most", 2, "-o", tmp_path / "o.npy"]
+    assert "--kind weights" in refused(*other, code=2)
     weights[5] = -1
     np.save(tmp_path / "w.npy", weights)
     assert "vertex 5" in refused(*carry, "--values", tmp_path / "w.npy", "--kind", "weights", "-o", tmp_path / "o.npy")
