@@ -23,7 +23,7 @@ LOSS_CLASSES = {  # in `gmds.mds.losses`, which is imported when one is chosen
     "minimax": "Minimax",
 }
 LOSSES = tuple(LOSS_CLASSES)
-PARTS = ("auto", "neither", "source", "target")  # as `match` has them: importing them costs a second
+PARTS = ("auto", "neither", "source", "target", "both")  # as `match` has them: importing them costs a second
 
 metric_option = click.option("--metric", type=click.Choice(METRICS), help="Metric in which distances are measured.")
 distance_option = click.option("--distance", type=click.Choice(DISTANCES), help="Distance that the map preserves.")

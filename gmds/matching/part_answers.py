@@ -10,10 +10,12 @@ from typing import Any, Literal
 import numpy as np
 
 from geodesics import Mesh, SurfacePoints
+from geodesics.points import joined
 from geodesics.topology.edges import edges
 from gmds.correspondence import Correspondence
 from gmds.maps.images import preimage
 from gmds.maps.point_map import Candidate, MatchStatus
+from gmds.matching.overlaps import overlap_candidates
 from gmds.matching.pair import SurfacePair
 from gmds.matching.parts import PartCandidate, part_candidates
 from gmds.matching.proposals import Proposal
@@ -21,12 +23,13 @@ from gmds.matching.result import AMBIGUOUS_MARGIN, MARGIN_OF_THE_ONLY, distortio
 from gmds.matching.steps import Report
 from gmds.mds.losses import Loss
 from gmds.provenance import versions
-from gmds.surface.measured import Surface
+from gmds.surface.measured import Surface, on_original
 
-Part = Literal["source", "target"]
-Parts = Literal["auto", "neither", "source", "target"]
+Part = Literal["source", "target", "both"]
+Parts = Literal["auto", "neither", "source", "target", "both"]
 
-PARTS: tuple[Parts, ...] = ("auto", "neither", "source", "target")
+EITHER: tuple[Part, ...] = ("source", "target", "both")
+PARTS: tuple[Parts, ...] = ("auto", "neither", "source", "target", "both")
 
 # A map of a part is POOR when its negative log-likelihood is above the first, or curvature correlates by less than the
 # second: right maps of the development half of the PFAUST pairs have -11.8 and 0.68 at the worst.
@@ -74,16 +77,23 @@ def maps_of_parts(pair: SurfacePair, parts: Parts, loss: Loss, count: int, repor
     A surface without a boundary, or with a short one, is no part.
     """
     sides = {"source": (pair.source, pair.target), "target": (pair.target, pair.source)}
+    open_sides = [name for name, (part, _) in sides.items() if boundary_length(part.mesh) > LEAST_BOUNDARY]
+    asked: list[Part]
     if parts == "auto":
-        asked = [name for name, (part, _) in sides.items() if boundary_length(part.mesh) > LEAST_BOUNDARY]
+        asked = (
+            ["both"] if len(open_sides) == 2 else ["source" if name == "source" else "target" for name in open_sides]
+        )
     else:
-        asked = [name for name in sides if name == parts]
+        asked = [name for name in EITHER if name == parts]
     found = []
     for number, name in enumerate(asked):
         tell = functools.partial(_tell, report, number / len(asked), 1 / len(asked))
-        candidates = part_candidates(*sides[name], loss, count, tell)
+        if name == "both":
+            candidates = overlap_candidates(pair.source, pair.target, loss, count, tell)
+        else:
+            candidates = part_candidates(*sides[name], loss, count, tell)
         if candidates:
-            found.append(PartAnswer("source" if name == "source" else "target", candidates))
+            found.append(PartAnswer(name, candidates))
     return found
 
 
@@ -119,7 +129,7 @@ def part_answer(candidates: Sequence[PartCandidate], part: Part, meta: Mapping[s
         "solver": best.candidate.solution.status.name,
         "versions": versions(),
     }
-    answer = forward if part == "source" else replace(forward.inverse(), valid=forward.covered)
+    answer = replace(forward.inverse(), valid=forward.covered) if part == "target" else forward
     return replace(answer, candidates=tuple(others), meta=described)
 
 
@@ -135,13 +145,18 @@ def _forward(one: PartCandidate, status: MatchStatus, meta: Mapping[str, Any]) -
     part: Surface = one.candidate.pair.source
     points = one.region.on_whole(original_points(one.candidate))
     valid = part.areas > 0
-    distortion = distortion_of(one.candidate)
-    return Correspondence(part.original, one.region.whole.original, points, valid, distortion, status, (), meta)
+    if one.elsewhere is not None:
+        both, row = joined(points, on_original(one.region.whole, one.elsewhere)), np.arange(len(valid))
+        points = both[np.where(valid, row, row + len(valid))]
+    source = part.original if one.source_region is None else one.source_region.whole.original
+    return Correspondence(
+        source, one.region.whole.original, points, valid, distortion_of(one.candidate), status, (), meta
+    )
 
 
 def _points(one: PartCandidate, part: Part) -> SurfacePoints:
     """Where the vertices of the source go."""
     forward = _forward(one, MatchStatus.UNRATED, {})
-    if part == "source":
-        return forward.points
-    return preimage(forward, np.arange(forward.target.n_vertices))[0]
+    if part == "target":
+        return preimage(forward, np.arange(forward.target.n_vertices))[0]
+    return forward.points

@@ -11,7 +11,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from geodesics import MeshError, SurfacePoints
-from geodesics.arrays import Bools, Floats
+from geodesics.arrays import Bools, Floats, Integers
 from geodesics.closest import closest_on_triangles
 from geodesics.threads import side_by_side
 from gmds.matching.candidates import MapCandidate, make_candidate, registered
@@ -34,10 +34,12 @@ SHORTFALL = 1.5  # of log-likelihood from the best, beyond which a map is not fo
 
 @dataclass(frozen=True, eq=False)
 class PartCandidate:
-    """A map of a part to a region of a whole."""
+    """A map of a part, or of a `source_region` beyond which vertices go `elsewhere`, to a region of a whole."""
 
     candidate: MapCandidate
     region: Region
+    source_region: Region | None = None
+    elsewhere: SurfacePoints | None = None
 
     @property
     def images(self) -> SurfacePoints:
@@ -70,14 +72,14 @@ def part_candidates(
 
     for number, margin in enumerate(MARGINS):
         tried = side_by_side(functools.partial(_in_region_or_not, source, target, margin, loss, count), begun)
-        likely = _likely([one for one in tried if one is not None])
-        done = _likely(side_by_side(lambda one: replace(one, candidate=polished(one.candidate)), likely))
+        likely = likely_candidates([one for one in tried if one is not None])
+        done = likely_candidates(side_by_side(lambda one: replace(one, candidate=polished(one.candidate)), likely))
         begun = [one.images for one in done]
         report(0.4 + 0.6 * (number + 1) / len(MARGINS))
     return done
 
 
-def _likely(candidates: Sequence[PartCandidate]) -> list[PartCandidate]:
+def likely_candidates(candidates: Sequence[PartCandidate]) -> list[PartCandidate]:
     """The likeliest first, without those that fall short of it by much."""
     ranked = sorted(candidates, key=lambda one: one.rank)
     return [one for one in ranked if one.rank < ranked[0].rank + SHORTFALL]
@@ -91,8 +93,13 @@ def in_region(
     The target is cut down to what is within `margin` spacings of the image, and the part is matched with that. Raises
     `MeshError` when the region shrinks to nothing (E104, E113).
     """
-    region = Region.of(target, near_image(source, target, images.positions, margin))
-    pair = SurfacePair(source, region.surface, None, source.reflected != target.reflected)
+    near = near_image(source.mesh.faces, target, images.positions, margin)
+    return matched_in(source, Region.of(target, near), loss, count, images)
+
+
+def matched_in(source: Surface, region: Region, loss: Loss, count: int, images: SurfacePoints) -> PartCandidate:
+    """The map of the source to a region, from `images` (n,) on the whole of that."""
+    pair = SurfacePair(source, region.surface, None, source.reflected != region.whole.reflected)
     places = region.surface.mesh.vertices[images.nearest_vertices()[pair.simplified[0].origin]]
     candidate = make_candidate(pair, Proposal.of(pair, places), loss, count)
     vertices, usable = region.surface.mesh.vertices, pair.full[1].usable
@@ -111,8 +118,8 @@ def _in_region_or_not(*arguments: Any) -> PartCandidate | None:
         return None
 
 
-def near_image(source: Surface, target: Surface, positions: Floats, margin: float) -> Bools:
-    """Vertices (q,) of the target within `margin` spacings of the image of the source, whose vertices are there."""
+def near_image(faces: Integers, target: Surface, positions: Floats, margin: float) -> Bools:
+    """Vertices (q,) of the target within `margin` spacings of the image of `faces`, whose vertices are there."""
     spacing = np.sqrt(np.median(target.areas[target.regular.usable]))
-    gap = closest_on_triangles(target.mesh.vertices, positions, source.mesh.faces)[2]
+    gap = closest_on_triangles(target.mesh.vertices, positions, faces)[2]
     return np.asarray(gap < margin * spacing, dtype=np.bool_)

@@ -74,10 +74,11 @@ def match(  # noqa: PLR0913, PLR0915 - the signature is a promise
         inside a face to within the size of faces; `SoftLandmarks` pull, as far as they can be right.
     orientation : {"preserve", "reverse", "any"}
         What the map is to do to the orientation of the surface.
-    parts : {"auto", "neither", "source", "target"}
+    parts : {"auto", "neither", "source", "target", "both"}
         Which surface is but a part of what the other is. With "auto" that is asked of a surface with a boundary, unless
         landmarks or a distance are given: its vertices then all have a counterpart, and of the other surface those in
-        the region that it covers (`valid`, `covered`). Where a part is asked for by name, landmarks have no say in
+        the region that it covers (`valid`, `covered`). Where both have a boundary ("both") each may lack what the other
+        has, and what they have in common is looked for. Where a part is asked for by name, landmarks have no say in
         where it is looked for, and those at vertices are met in the end; a distance of your own is refused.
     rng : int
         Seeds whatever is random; in the method as it stands nothing is.
@@ -115,7 +116,7 @@ def match(  # noqa: PLR0913, PLR0915 - the signature is a promise
         raise ValueError(f"orientation must be 'preserve', 'reverse' or 'any', not {orientation!r}")
     if parts not in PARTS:
         raise ValueError(f"parts must be one of {', '.join(map(repr, PARTS))}, not {parts!r}")
-    if parts in ("source", "target") and distance is not None:
+    if parts not in ("auto", "neither") and distance is not None:
         raise ValueError(f"parts={parts!r} is looked for without a distance of your own; leave one of them out")
     measured, facing = (s if isinstance(s, Surface) else measure(Mesh.from_object(s)) for s in (source, target))
     loss = LeastSquares() if loss is None else loss

@@ -1,0 +1,112 @@
+"""Two surfaces of which each is but a part: the region that each has in common with the other, and the map of it."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from geodesics import MeshError
+from geodesics.arrays import Bools, Floats
+from geodesics.threads import side_by_side
+from gmds.matching.pair import SurfacePair, full
+from gmds.matching.parts import PartCandidate, likely_candidates, matched_in, near_image
+from gmds.matching.polishing import polished
+from gmds.mds.losses import Loss
+from gmds.parts.overlaps import APART, RECIPROCAL, curvature_neg_log_likelihood, overlap_maps
+from gmds.registration.distinct import distinct
+from gmds.registration.energies import AsRigidAsPossible
+from gmds.registration.register import Registered, settled
+from gmds.registration.settings import RegistrationSettings, Stage
+from gmds.surface.measured import Surface
+from gmds.surface.region import Region
+
+FINALISTS = 8  # rough maps, the likeliest, for which all of both surfaces is laid on each other
+MATCHED = 3  # of them, those whose regions are matched
+MARGIN = 1.5  # spacings of vertices of the target around the image that belong to the region
+GAP = 0.05  # root areas off the target, beyond which a vertex has no counterpart
+REGION_TIME = 2e-4  # heat time, in units of the area: a region is as wide as heat spreads, as in `gmds.matching.result`
+ROUNDS = 2  # of laying and matching
+
+ALL_FACES = RegistrationSettings(
+    (Stage(3e-3, 4), Stage(1e-3, 4)), AsRigidAsPossible, partial=True, reciprocal=RECIPROCAL
+)
+"""Of both surfaces with all their faces, where each may lack what the other has."""
+
+
+@dataclass(frozen=True, eq=False)
+class Laid:
+    """The `source` with all its faces deformed onto the `target`, as far as both are there."""
+
+    source: Surface
+    target: Surface
+    registered: Registered
+
+    @classmethod
+    def of(cls, source: Surface, target: Surface, y: Floats) -> Laid:
+        """From where the vertices of the source are to begin with, (n, 3)."""
+        return cls(source, target, settled(full(source), full(target), y, ALL_FACES))
+
+    @property
+    def neg_log_likelihood(self) -> float:
+        """That of the curvature of what overlaps."""
+        return curvature_neg_log_likelihood([self.registered.residuals])
+
+    @property
+    def common(self) -> Bools:
+        """Vertices (n,) of the source with a counterpart: near the target, and not nearest to its boundary."""
+        ours, on_target = full(self.source), self.registered.points
+        gap = np.linalg.norm(on_target.positions - self.registered.y, axis=1)
+        there = ~full(self.target).on_boundary(on_target) & (gap < GAP) & (ours.areas > 0)
+        return np.asarray(ours.laplacian.heat_step(REGION_TIME)(ours.areas * there) > 0.5, dtype=np.bool_)
+
+
+def overlap_candidates(
+    source: Surface, target: Surface, loss: Loss, count: int, report: Callable[[float], None]
+) -> list[PartCandidate]:
+    """Maps between what two surfaces have in common, the likeliest first; none where nothing was found."""
+    meshes = SurfacePair(source, target).simplified
+    rough = overlap_maps(source, target, meshes, lambda share: report(0.5 * share))
+    rough = distinct(rough, meshes[0].areas, APART, count=FINALISTS)
+    begun = [meshes[0].deformed(one.registered.y, source.mesh.vertices) for one in rough]
+    laid = side_by_side(functools.partial(Laid.of, source, target), begun)
+    laid = sorted(laid, key=lambda one: one.neg_log_likelihood)[:MATCHED]
+    done = _matched(laid, loss, count)
+    for number in range(1, ROUNDS):
+        report(0.5 + 0.5 * number / ROUNDS)
+        done = _matched(side_by_side(lambda both: _again(*both), done), loss, count)
+    return [candidate for candidate, _ in done]
+
+
+def _matched(laid: Sequence[Laid], loss: Loss, count: int) -> list[tuple[PartCandidate, Laid]]:
+    """The maps of their regions, the likely ones, the likeliest first, and where each came from."""
+    tried = side_by_side(lambda one: _in_regions_or_not(one, loss, count), laid)
+    found = [(candidate, one) for candidate, one in zip(tried, laid, strict=True) if candidate is not None]
+    found = [(replace(candidate, candidate=polished(candidate.candidate)), one) for candidate, one in found]
+    likely = likely_candidates([candidate for candidate, _ in found])
+    return [both for candidate in likely for both in found if both[0] is candidate]
+
+
+def in_regions(one: Laid, loss: Loss, count: int) -> PartCandidate:
+    """The map between what both have in common. Raises `MeshError` when that shrinks to nothing (E104, E113)."""
+    ours = Region.of(one.source, one.common)
+    points = one.registered.points
+    near = near_image(ours.surface.mesh.faces, one.target, points.positions, MARGIN)
+    found = matched_in(ours.surface, Region.of(one.target, near), loss, count, points)
+    return replace(found, source_region=ours, elsewhere=points)
+
+
+def _in_regions_or_not(one: Laid, loss: Loss, count: int) -> PartCandidate | None:
+    try:
+        return in_regions(one, loss, count)
+    except MeshError:  # a region is too small to be matched
+        return None
+
+
+def _again(one: PartCandidate, before: Laid) -> Laid:
+    """Both surfaces laid on each other as the map of the regions says, the rest of the source following."""
+    used = one.candidate.pair.source.areas > 0
+    y = np.where(used[:, None], one.images.positions, before.registered.y)
+    return Laid.of(before.source, before.target, y)

@@ -1,0 +1,193 @@
+"""How a surface may lie on another as it is, turned, resized and moved: many similarities, and the best of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from geodesics.arrays import Floats, Integers
+from geodesics.caching import cached_property, memoized
+from gmds._kernels.alignments import alignment_costs, refined_alignments
+from gmds.parts.extremities import near_boundary
+from gmds.registration.deformable import DeformableMesh
+from gmds.surface.measured import Surface
+
+FRAMES = 120  # points of each surface, at most, whose frames are laid on each other
+FRAME_RADIUS = 0.12  # root areas around a point over which the direction of its frame is averaged
+SAME_SIDE = 0.2  # cosine of normals there, below which a point lies on another sheet
+SIZES = (0.6, 0.72, 0.85, 1.0, 1.18, 1.4, 1.66)  # of the source on the target, both of unit area
+LEAST_SIZE, MOST_SIZE = 0.5, 2.0  # bounds of what closest points may make of them
+POINTS = 150  # of each surface, between which a similarity is judged
+GRID = 40  # cells along the longest side of the box around a surface
+MARGIN = 0.25  # root areas of that box around the surface
+REACH = 0.12  # root areas: what is as far from the other surface as that belongs to nothing there
+FINE_REACH = 0.08  # the same, once closest points have been sought
+TURN = 0.5  # of 1 - cosine of normals, beside the squared gap over the squared reach: normals at 180 degrees say no
+MISSING = 0.6  # the cost of what lies on the boundary of the other surface, where that of what fits nowhere is 1
+REFINED = 1500  # similarities of least cost that are improved by closest points
+CLOSEST_REACH = 0.15  # root areas within which closest points are believed
+STEPS = 8  # of closest points
+APART = 0.1  # root mean square distance in root areas between two alignments that are two
+
+
+@dataclass(frozen=True, eq=False)
+class Similarities:
+    """Maps y = s R x + t, with `rotations` R (k, 3, 3), `sizes` s (k,) and `shifts` t (k, 3)."""
+
+    rotations: Floats
+    sizes: Floats
+    shifts: Floats
+
+    def __len__(self) -> int:
+        return len(self.sizes)
+
+    def __getitem__(self, rows: Integers) -> Similarities:
+        return Similarities(self.rotations[rows], self.sizes[rows], self.shifts[rows])
+
+    def moved(self, points: Floats) -> Floats:
+        """Where each of them sends points (p, 3): an array (k, p, 3)."""
+        turned = np.einsum("kab,pb->kpa", self.rotations, points)
+        return np.asarray(self.sizes[:, None, None] * turned + self.shifts[:, None], dtype=np.float64)
+
+
+@dataclass(frozen=True, eq=False)
+class Judged:
+    """A simplified surface as alignments are judged by: points on it, and its closest vertex to any place near it."""
+
+    surface: Surface
+    mesh: DeformableMesh
+
+    @cached_property
+    def points(self) -> Integers:
+        """Vertices (p,) spread over the surface."""
+        return self._cells[0]
+
+    @cached_property
+    def _cells(self) -> tuple[Integers, Floats]:
+        """Farthest points, and the area of the cell of each."""
+        cells = self.surface.regular.cells(POINTS)
+        return cells.samples, np.bincount(
+            np.maximum(cells.nearest, 0), self.surface.areas * (cells.nearest >= 0), len(cells.samples)
+        )
+
+    @cached_property
+    def arrays(self) -> tuple[Any, ...]:
+        """What the kernels take: points, normals and areas; cells, their corner and step; vertices, normals, edge."""
+        samples, areas = self._cells
+        low, step, cells = self._grid
+        normals = full_normals(self.surface)
+        return (
+            np.ascontiguousarray(self.surface.mesh.vertices[samples]),
+            np.ascontiguousarray(normals[samples]),
+            areas / areas.sum(),
+            cells,
+            low,
+            step,
+            np.ascontiguousarray(self.mesh.mesh.vertices),
+            np.ascontiguousarray(self.mesh.normals),
+            self._edge,
+        )
+
+    @cached_property
+    def _edge(self) -> NDArray[np.bool_]:
+        """Whether a vertex (n,) of the simplified mesh is on a face at the boundary."""
+        faces, edge = self.mesh.mesh.faces, self.mesh.boundary.copy()
+        edge[faces[edge[faces].any(axis=1)]] = True
+        return edge
+
+    @cached_property
+    def _grid(self) -> tuple[Floats, float, NDArray[np.int32]]:
+        """The closest vertex of every cell of a box around the surface."""
+        places = self.mesh.mesh.vertices[self.mesh.usable]
+        low, high = places.min(axis=0) - MARGIN, places.max(axis=0) + MARGIN
+        step = float((high - low).max() / GRID)
+        axes = [
+            start + step * np.arange(int(np.ceil((end - start) / step)) + 1)
+            for start, end in zip(low, high, strict=True)
+        ]
+        box = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
+        near = cKDTree(places).query(box.reshape(-1, 3))[1]
+        return low, step, self.mesh.usable[near].reshape(box.shape[:3]).astype(np.int32)
+
+
+@memoized
+def full_normals(surface: Surface) -> Floats:
+    """Normals (n, 3) of all vertices."""
+    return DeformableMesh.of(surface).normals
+
+
+def frames(surface: Surface, vertices: Integers) -> Floats:
+    """At each vertex (k,) its normal, averaged, and the principal directions of the most and the least curvature.
+
+    Arrays (k, 3, 3) of rows that are orthonormal and right-handed; the signs of the two directions are arbitrary.
+    """
+    places, areas, normals = surface.mesh.vertices, surface.areas, full_normals(surface)
+    usable = surface.regular.usable
+    result = np.empty((len(vertices), 3, 3))
+    for row, near in enumerate(cKDTree(places[usable]).query_ball_point(places[vertices], FRAME_RADIUS)):
+        around = usable[near]
+        around = around[normals[around] @ normals[vertices[row]] > SAME_SIDE]
+        normal = areas[around] @ normals[around]
+        normal = normal / max(np.linalg.norm(normal), np.finfo(float).tiny)
+        across = normals[around] - np.outer(normals[around] @ normal, normal)
+        most = np.linalg.eigh((areas[around, None] * across).T @ across)[1][:, 2]
+        most -= normal * (most @ normal)
+        most /= max(np.linalg.norm(most), np.finfo(float).tiny)
+        result[row] = normal, most, np.cross(normal, most)
+    return result
+
+
+def alignments(source: Judged, target: Judged, count: int) -> tuple[Similarities, Floats]:
+    """The `count` best similarities between two surfaces of unit area, apart from each other, and what they cost.
+
+    Frames of points of one are laid on those of the other, in a few sizes; what then lies nearest to the boundary of
+    the other surface, either way, may be missing there. The best are improved by closest points (Besl and McKay 1992).
+    """
+    begun = _laid_on(source, target)
+    order = np.argsort(
+        alignment_costs(*_parts(begun), source.arrays, target.arrays, REACH, TURN, MISSING), kind="stable"
+    )
+    best = begun[order[:REFINED]]
+    refined_alignments(*_parts(best), source.arrays, target.arrays, CLOSEST_REACH, STEPS, LEAST_SIZE, MOST_SIZE)
+    costs = alignment_costs(*_parts(best), source.arrays, target.arrays, FINE_REACH, TURN, MISSING)
+    order = np.argsort(costs, kind="stable")
+    places = best.moved(source.arrays[0]).reshape(len(best), -1) / np.sqrt(len(source.arrays[0]))
+    kept: list[int] = []
+    for one in order:
+        if len(kept) == count:
+            break
+        if not kept or np.sqrt(((places[kept] - places[one]) ** 2).sum(axis=1)).min() > APART:
+            kept.append(int(one))
+    rows = np.array(kept, dtype=np.int64)
+    return best[rows], costs[rows]
+
+
+def _parts(some: Similarities) -> tuple[Floats, Floats, Floats]:
+    return some.rotations, some.sizes, some.shifts
+
+
+def _laid_on(source: Judged, target: Judged) -> Similarities:
+    """All similarities that lay the frame of a point of the source, either way round, on one of the target."""
+    (ours, here), (theirs, there) = (_framed(one) for one in (source, target))
+    flips = np.array([[1.0, 1.0, 1.0], [1.0, -1.0, -1.0]])
+    flipped = there[:, None] * flips[None, :, :, None]  # (q, 2, 3, 3)
+    rotations = np.einsum("qfca,pcb->pqfab", flipped, here)
+    shape = rotations.shape[:3]
+    turned = np.einsum("pqfab,pb->pqfa", rotations, source.surface.mesh.vertices[ours])
+    goals = np.broadcast_to(target.surface.mesh.vertices[theirs][None, :, None], (*shape, 3))
+    every = [(rotations, size, goals - size * turned) for size in SIZES]
+    return Similarities(
+        np.concatenate([one[0].reshape(-1, 3, 3) for one in every]),
+        np.concatenate([np.full(int(np.prod(shape)), one[1]) for one in every]),
+        np.concatenate([one[2].reshape(-1, 3) for one in every]),
+    )
+
+
+def _framed(one: Judged) -> tuple[Integers, Floats]:
+    vertices = one.surface.regular.samples(FRAMES)
+    vertices = vertices[~near_boundary(one.surface.mesh)[vertices]]
+    return vertices, frames(one.surface, vertices)
