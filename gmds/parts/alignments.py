@@ -19,8 +19,7 @@ from gmds.surface.measured import Surface
 FRAMES = 120  # points of each surface, at most, whose frames are laid on each other
 FRAME_RADIUS = 0.12  # root areas around a point over which the direction of its frame is averaged
 SAME_SIDE = 0.2  # cosine of normals there, below which a point lies on another sheet
-SIZES = (0.6, 0.72, 0.85, 1.0, 1.18, 1.4, 1.66)  # of the source on the target, both of unit area
-LEAST_SIZE, MOST_SIZE = 0.5, 2.0  # bounds of what closest points may make of them
+STEP_OF_SIZE = 1.19  # from one size that is tried to the next: closest points bridge half of that
 POINTS = 150  # of each surface, between which a similarity is judged
 GRID = 40  # cells along the longest side of the box around a surface
 MARGIN = 0.25  # root areas of that box around the surface
@@ -141,18 +140,18 @@ def frames(surface: Surface, vertices: Integers) -> Floats:
     return result
 
 
-def alignments(source: Judged, target: Judged, count: int) -> tuple[Similarities, Floats]:
-    """The `count` best similarities between two surfaces of unit area, apart from each other, and what they cost.
+def alignments(source: Judged, target: Judged, sizes: tuple[float, float], count: int) -> Similarities:
+    """The `count` best similarities between two surfaces of unit area, apart from each other, the best first.
 
-    Frames of points of one are laid on those of the other, in a few sizes; what then lies nearest to the boundary of
+    Frames of points of one are laid on those of the other, with `sizes` from the least to the most; what then lies nearest to the boundary of
     the other surface, either way, may be missing there. The best are improved by closest points (Besl and McKay 1992).
     """
-    begun = _laid_on(source, target)
+    begun = _laid_on(source, target, sizes)
     order = np.argsort(
         alignment_costs(*_parts(begun), source.arrays, target.arrays, REACH, TURN, MISSING), kind="stable"
     )
     best = begun[order[:REFINED]]
-    refined_alignments(*_parts(best), source.arrays, target.arrays, CLOSEST_REACH, STEPS, LEAST_SIZE, MOST_SIZE)
+    refined_alignments(*_parts(best), source.arrays, target.arrays, CLOSEST_REACH, STEPS, *sizes)
     costs = alignment_costs(*_parts(best), source.arrays, target.arrays, FINE_REACH, TURN, MISSING)
     order = np.argsort(costs, kind="stable")
     places = best.moved(source.arrays[0]).reshape(len(best), -1) / np.sqrt(len(source.arrays[0]))
@@ -162,15 +161,14 @@ def alignments(source: Judged, target: Judged, count: int) -> tuple[Similarities
             break
         if not kept or np.sqrt(((places[kept] - places[one]) ** 2).sum(axis=1)).min() > APART:
             kept.append(int(one))
-    rows = np.array(kept, dtype=np.int64)
-    return best[rows], costs[rows]
+    return best[np.array(kept, dtype=np.int64)]
 
 
 def _parts(some: Similarities) -> tuple[Floats, Floats, Floats]:
     return some.rotations, some.sizes, some.shifts
 
 
-def _laid_on(source: Judged, target: Judged) -> Similarities:
+def _laid_on(source: Judged, target: Judged, sizes: tuple[float, float]) -> Similarities:
     """All similarities that lay the frame of a point of the source, either way round, on one of the target."""
     (ours, here), (theirs, there) = (_framed(one) for one in (source, target))
     flips = np.array([[1.0, 1.0, 1.0], [1.0, -1.0, -1.0]])
@@ -179,7 +177,9 @@ def _laid_on(source: Judged, target: Judged) -> Similarities:
     shape = rotations.shape[:3]
     turned = np.einsum("pqfab,pb->pqfa", rotations, source.surface.mesh.vertices[ours])
     goals = np.broadcast_to(target.surface.mesh.vertices[theirs][None, :, None], (*shape, 3))
-    every = [(rotations, size, goals - size * turned) for size in SIZES]
+    ratio = sizes[1] / sizes[0]
+    tried = sizes[0] * ratio ** np.linspace(0.0, 1.0, 1 + max(1, round(np.log(ratio) / np.log(STEP_OF_SIZE))))
+    every = [(rotations, size, goals - size * turned) for size in tried]
     return Similarities(
         np.concatenate([one[0].reshape(-1, 3, 3) for one in every]),
         np.concatenate([np.full(int(np.prod(shape)), one[1]) for one in every]),

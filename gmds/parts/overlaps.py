@@ -18,6 +18,7 @@ from gmds.registration.settings import COARSE, TO_IMAGES, RegistrationSettings, 
 from gmds.surface.measured import Surface
 
 ALIGNED = 100  # alignments that are deformed
+SIZES = (0.6, 1.7)  # of the source on the target, both of unit area: the larger one has three times the area
 RETURNED = 40  # of these, those whose curvature fits best, that are deformed the way back as well
 APART = 0.06  # root mean square distance in root areas between two maps that are two
 RECIPROCAL = 0.08  # as in `gmds.parts.search`
@@ -58,7 +59,7 @@ def overlap_maps(
 ) -> list[OverlapMap]:
     """Maps of what `source` has in common with `target`, the likeliest first; `meshes` are both simplified."""
     ours, theirs = meshes
-    found, _ = alignments(Judged(source, ours), Judged(target, theirs), ALIGNED)
+    found = alignments(Judged(source, ours), Judged(target, theirs), SIZES, ALIGNED)
     tell(0.2)
     places = found.moved(ours.mesh.vertices)
     begun = side_by_side(lambda y: OverlapMap(settled(ours, theirs, y, IN_PLACE)), list(places))

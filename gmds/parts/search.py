@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from geodesics.arrays import Bools, Floats, Integers
 from geodesics.threads import side_by_side
+from gmds.parts.alignments import Judged, alignments
 from gmds.parts.assignments import consistent_assignments
 from gmds.parts.extremities import Anchors, inner_extremities, with_interior
 from gmds.parts.local_stress import LocalStress
@@ -17,8 +18,8 @@ from gmds.parts.trilateration import Trilateration
 from gmds.registration.deformable import DeformableMesh
 from gmds.registration.distinct import distinct
 from gmds.registration.energies import AsRigidAsPossible
-from gmds.registration.register import Registered, register
-from gmds.registration.settings import COARSE, TO_IMAGES, RegistrationSettings
+from gmds.registration.register import Registered, register, settled
+from gmds.registration.settings import COARSE, TO_IMAGES, RegistrationSettings, Stage
 from gmds.surface.measured import Surface
 
 # Chosen on the development half of the PFAUST pairs (benchmarks/results/notes.md, "Parts").
@@ -32,8 +33,13 @@ RECIPROCAL = 0.08  # root areas between a point of the whole and the image of wh
 # part has nothing there
 BELIEF_TIME = 3e-3  # heat time, in units of the area of the part, over which strain is averaged
 
+ALIGNED = 40  # alignments that are deformed
+SIZES = (0.3, 1.0)  # of a part of unit area on a whole of unit area
+
 ONTO_WHOLE = RegistrationSettings((*TO_IMAGES, *COARSE), AsRigidAsPossible, partial=True, reciprocal=RECIPROCAL)
 """Of a simplified part onto a simplified whole: what the part does not reach does not pull."""
+IN_PLACE = ONTO_WHOLE.with_stages((Stage(1e-2, 6), Stage(3e-3, 6)))
+"""From where it nearly fits."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,17 +66,28 @@ def part_maps(
     """Maps of the part `source` onto `target`, the likeliest first; `meshes` are both simplified. Maybe none.
 
     Extremities of both are assigned to each other where they agree on a scale (`consistent_assignments`), every vertex
-    is placed by its distances from them (`Trilateration`), and the simplified part is deformed as that says. Of the
-    likeliest, vertices are placed anew by distances from those that fit well (`LocalStress`), a few times.
+    is placed by its distances from them (`Trilateration`), and the simplified part is deformed as that says; or it is
+    deformed from where it fits as it is (`alignments`). Of the likeliest, vertices are placed anew by distances from
+    those that fit well (`LocalStress`), a few times.
     """
     ours, theirs = side_by_side(inner_extremities, (source, target))
-    found = _from_anchors(source, target, meshes, ours, theirs, None)
+    begun = _aligned(source, target, meshes) + _from_anchors(source, target, meshes, ours, theirs, None)
+    tell(0.4)
+    found = _improved(meshes, begun)
     tell(0.6)
     if not found or found[0].neg_log_likelihood > DOUBTFUL:
         (ours, tips), (goals, ends) = with_interior(source, INTERIOR[0]), with_interior(target, INTERIOR[1])
         more = _from_anchors(source, target, meshes, ours, goals, tips[:, None] == ends[None])
-        found = distinct([*found, *more], meshes[0].areas, APART)
+        found = distinct([*found, *_improved(meshes, more)], meshes[0].areas, APART)
     return found
+
+
+def _aligned(source: Surface, target: Surface, meshes: tuple[DeformableMesh, DeformableMesh]) -> list[PartMap]:
+    """Maps from where the part fits as it is."""
+    ours, theirs = meshes
+    found = alignments(Judged(source, ours), Judged(target, theirs), SIZES, ALIGNED)
+    places = list(found.moved(ours.mesh.vertices))
+    return side_by_side(lambda y: _part_map(ours, settled(ours, theirs, y, IN_PLACE)), places)
 
 
 def _from_anchors(
@@ -81,7 +98,7 @@ def _from_anchors(
     theirs: Anchors,
     alike: Bools | None,
 ) -> list[PartMap]:
-    """Maps from assignments of the anchors of both, the likeliest first."""
+    """Maps from assignments of the anchors of both."""
     if len(ours.vertices) < 2 or len(theirs.vertices) < 2:
         return []
     between = ours.distances[:, ours.vertices], theirs.distances[:, theirs.vertices]
@@ -89,7 +106,11 @@ def _from_anchors(
     rows = Trilateration(source.mesh, target.mesh, ours, theirs, meshes[0].origin, meshes[1].origin)
     residuals = side_by_side(rows.residual, assigned)
     likely = [assigned[i] for i in np.argsort(residuals, kind="stable")[:REGISTERED]]
-    begun = side_by_side(lambda one: _deformed(meshes, rows.images(one)), likely)
+    return side_by_side(lambda one: _deformed(meshes, rows.images(one)), likely)
+
+
+def _improved(meshes: tuple[DeformableMesh, DeformableMesh], begun: Sequence[PartMap]) -> list[PartMap]:
+    """The likeliest of some maps, improved, the likeliest first."""
     apart = distinct(begun, meshes[0].areas, APART, count=IMPROVED)
     return distinct(side_by_side(functools.partial(improved, meshes), apart), meshes[0].areas, APART)
 
@@ -116,7 +137,10 @@ def belief(source: DeformableMesh, registered: Registered) -> Floats:
 def _deformed(meshes: tuple[DeformableMesh, DeformableMesh], images: Integers) -> PartMap:
     """The simplified part deformed as a map to vertices of the simplified whole says."""
     source, target = meshes
-    registered = register(source, target, target.mesh.vertices[images], ONTO_WHOLE)
+    return _part_map(source, register(source, target, target.mesh.vertices[images], ONTO_WHOLE))
+
+
+def _part_map(source: DeformableMesh, registered: Registered) -> PartMap:
     local = source.energy(ONTO_WHOLE.energy).local_step(registered.y)
     size = float(np.sqrt(np.einsum("nab,nab->n", local, local) @ source.areas / 3))
     return PartMap(registered, max(size, 1e-6))
