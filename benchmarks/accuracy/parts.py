@@ -4,7 +4,7 @@
 
 The pairs of `partial/pairs.json`, every mesh turned and resized at random, defaults only. Mean geodesic error x100 on
 what has a counterpart (protocol of `gmds benchmark`), overlap IoU, precision and recall of `valid` by vertices with a
-known answer. Hyper-parameters were chosen on the pairs named in `DEVELOPMENT`; figures are of the others. Writes
+known answer; as evidence minus the log-likelihood of the simplified meshes, correlation of curvature, and stress. Hyper-parameters were chosen on the pairs named in `DEVELOPMENT`; figures are of the others. Writes
 results/parts.csv, where what was measured at this version of the code is not measured again, and results/parts.md.
 """
 
@@ -32,6 +32,7 @@ from geodesics.arrays import Integers
 from gmds.benchmarking.run import turned
 from gmds.evaluation import geodesic_error, protocol_subset
 from gmds.files.table import read_table, write_table
+from gmds.registration.residuals import Residuals
 from gmds.shapes import quadruped
 
 DEVELOPMENT = ("003", "008", "013", "023", "H_018", "9_dog", "9_lion", "0_cow", "24_cow")
@@ -47,6 +48,9 @@ COLUMNS = (
     "cpu_seconds",
     "part",
     "margin",
+    "likelihood",
+    "curvature",
+    "stress",
 )
 GOALS = {"PFAUST-M": "3.0", "PFAUST-H": "3.5", "PFAUST-M back": "4.0 / 0.90", "PFAUST-H back": "4.0 / 0.90"}
 GOALS["PARTIALSMAL"] = "8.0 / 0.80"
@@ -90,6 +94,7 @@ def judged_row(names: Mapping[str, str], meshes: tuple[Mesh, Mesh], known: Known
     there, gone = np.unique(known.there), np.setdiff1d(known.missing, known.there)
     kept, wrong = int(answer.valid[there].sum()), int(answer.valid[gone].sum())
     evidence = answer.meta["evidence"]
+    likelihood = sum(Residuals(**evidence[way]).neg_log_likelihood for way in ("outline", "outline_back"))
     return {
         "pair": names["name"],
         "group": names["group"],
@@ -102,6 +107,9 @@ def judged_row(names: Mapping[str, str], meshes: tuple[Mesh, Mesh], known: Known
         "cpu_seconds": f"{seconds:.2f}",
         "part": answer.meta.get("part", "-"),
         "margin": f"{evidence.get('margin', 0):.2f}",
+        "likelihood": f"{likelihood:.2f}",
+        "curvature": f"{evidence['whole']['curvature']:.2f}",
+        "stress": f"{evidence['stress']:.2f}",
     }
 
 

@@ -69,9 +69,8 @@ class Judged:
     def _cells(self) -> tuple[Integers, Floats]:
         """Farthest points, and the area of the cell of each."""
         cells = self.surface.regular.cells(POINTS)
-        return cells.samples, np.bincount(
-            np.maximum(cells.nearest, 0), self.surface.areas * (cells.nearest >= 0), len(cells.samples)
-        )
+        areas = self.surface.areas * (cells.nearest >= 0)
+        return cells.samples, np.bincount(np.maximum(cells.nearest, 0), areas, len(cells.samples)).astype(np.float64)
 
     @cached_property
     def arrays(self) -> tuple[Any, ...]:
@@ -143,8 +142,9 @@ def frames(surface: Surface, vertices: Integers) -> Floats:
 def alignments(source: Judged, target: Judged, sizes: tuple[float, float], count: int) -> Similarities:
     """The `count` best similarities between two surfaces of unit area, apart from each other, the best first.
 
-    Frames of points of one are laid on those of the other, with `sizes` from the least to the most; what then lies nearest to the boundary of
-    the other surface, either way, may be missing there. The best are improved by closest points (Besl and McKay 1992).
+    Frames of points of one are laid on those of the other, with `sizes` from the least to the most; what then lies
+    nearest the boundary of the other surface, either way, may be missing there. The best are improved by closest points
+    (Besl and McKay 1992).
     """
     begun = _laid_on(source, target, sizes)
     order = np.argsort(
