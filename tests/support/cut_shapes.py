@@ -11,6 +11,8 @@ from geodesics import Mesh, SurfacePoints
 from geodesics.arrays import Bools, Integers
 from gmds.shapes import Figure, quadruped, truth
 
+FRONT, REAR = -0.6, 0.7  # along the body: behind that one the hind legs and tail, before this one the head
+
 
 class Cut(NamedTuple):
     """A `part`, the vertices `kept` (p,) of a body; the `whole` in another pose; where the part is on it."""
@@ -44,3 +46,25 @@ def animal_on_half(n: int = 1000) -> tuple[Integers, SurfacePoints]:
     true = truth(whole, body)
     there = np.flatnonzero((row[body.faces[true.face]] >= 0).all(axis=1))
     return there, SurfacePoints.closest(part, true[there].positions)
+
+
+class TwoCuts(NamedTuple):
+    """The `front` of an animal and the `rear` of another pose; vertices (k,) of the front and where they are there."""
+
+    front: Mesh
+    rear: Mesh
+    there: Integers
+    true: SurfacePoints
+
+
+@functools.cache
+def two_cuts(n: int = 1000) -> TwoCuts:
+    """The front of one and the rear of the other, in another pose: they have the trunk and its legs in common."""
+    standing, walking = quadruped(n_vertices=n), quadruped("walk", n_vertices=n, seed=1)
+    front, kept = cut(standing, standing.vertices[:, 0] > FRONT)
+    rear, kept_rear = cut(walking, walking.vertices[:, 0] < REAR)
+    row = np.full(walking.n_vertices, -1)
+    row[kept_rear] = np.arange(len(kept_rear))
+    true = truth(standing, walking)[kept]
+    there = np.flatnonzero((row[walking.faces[true.face]] >= 0).all(axis=1))
+    return TwoCuts(front, rear, there, SurfacePoints.closest(rear, true[there].positions))

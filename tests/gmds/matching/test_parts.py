@@ -101,12 +101,12 @@ def test_closed_surfaces_are_matched_as_if_there_were_no_parts(parts: str) -> No
     assert plain.meta["evidence"] == asked.meta["evidence"] and "part" not in plain.meta
 
 
-@pytest.mark.parametrize("wrong", ["bad", "both", "", None, 1])
+@pytest.mark.parametrize("wrong", ["bad", "all", "", None, 1])
 def test_other_words_are_refused(wrong: object) -> None:
     mesh = bumpy_sphere(1)
-    with pytest.raises(ValueError, match="parts must be one of 'auto', 'neither', 'source', 'target'"):
+    with pytest.raises(ValueError, match="parts must be one of 'auto', 'neither', 'source', 'target', 'both'"):
         gmds.match(mesh, mesh, parts=wrong)  # type: ignore[arg-type]
-    assert PARTS == ("auto", "neither", "source", "target")
+    assert PARTS == ("auto", "neither", "source", "target", "both")
 
 
 def test_landmarks_of_a_part_are_met() -> None:
@@ -128,9 +128,9 @@ def test_a_map_of_a_part_is_read_back_with_what_it_covers(onto_whole: Correspond
 
 def test_near_an_image_is_within_so_many_spacings() -> None:
     surface = measure(bumpy_sphere(3))
-    here = near_image(surface, surface, surface.mesh.vertices, 0.01)
+    here = near_image(surface.mesh.faces, surface, surface.mesh.vertices, 0.01)
     assert here.all()
-    half = near_image(surface, surface, surface.mesh.vertices * [1, 1, 0] + [0, 0, 9], 2.0)
+    half = near_image(surface.mesh.faces, surface, surface.mesh.vertices * [1, 1, 0] + [0, 0, 9], 2.0)
     assert not half.any()
 
 
