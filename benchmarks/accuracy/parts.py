@@ -4,8 +4,9 @@
 
 The pairs of `partial/pairs.json`, every mesh turned and resized at random, defaults only. Mean geodesic error x100 on
 what has a counterpart (protocol of `gmds benchmark`), overlap IoU, precision and recall of `valid` by vertices with a
-known answer; as evidence minus the log-likelihood of the simplified meshes, correlation of curvature, and stress. Hyper-parameters were chosen on the pairs named in `DEVELOPMENT`; figures are of the others. Writes
-results/parts.csv, where what was measured at this version of the code is not measured again, and results/parts.md.
+known answer; as evidence minus the log-likelihood of the simplified meshes, correlation of curvature, and stress.
+Hyper-parameters were chosen on the pairs named in `DEVELOPMENT`; figures are of the others. Writes results/parts.csv,
+where what was measured at this version of the code is not measured again, and results/parts.md.
 """
 
 from __future__ import annotations
