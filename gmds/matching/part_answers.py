@@ -38,6 +38,9 @@ LEAST_CURVATURE = 0.6
 # Length of the boundary in root areas, above which something may be missing: the wrist of a person is 0.1 around.
 # What is shorter is an eye, or a hole of a scan.
 LEAST_BOUNDARY = 0.1
+# A negative log-likelihood of a map of one whole to the other, below which nothing is missing: six pairs of faces, open
+# below the chin, have -16.3 to -13.6, the development half of the parts of people and animals -10.6 to -7.4.
+WHOLE = -13.0
 FIT_OF_A_REGION = 0.3  # of log-likelihood: a surface is no part of its own copy; set by hand
 
 
@@ -61,30 +64,31 @@ class PartAnswer:
 def likelier_part(found: Sequence[PartAnswer], whole: Sequence[Proposal], parts: Parts) -> PartAnswer | None:
     """The likeliest of what was found of parts; None where a map of one whole to the other is as likely.
 
-    A region can be chosen to fit, so a part has to be likelier by `FIT_OF_A_REGION`; where the user said which surface
-    is the part, there is nothing to weigh.
+    A region can be chosen to fit, so a part has to be likelier by `FIT_OF_A_REGION`. Where both surfaces are cut, the
+    less they have in common the less likely any map is, and it is enough that a map of the whole would be `POOR`. Where
+    the user said which surface is the part, there is nothing to weigh.
     """
     best = min(found, key=lambda one: one.neg_log_likelihood, default=None)
     if best is None or parts != "auto":
         return best
     least = min(one.neg_log_likelihood for one in whole)
+    if best.part == "both" and least > LEAST_LIKELY:
+        return best
     return best if best.neg_log_likelihood < least - FIT_OF_A_REGION else None
 
 
-def maps_of_parts(pair: SurfacePair, parts: Parts, loss: Loss, count: int, report: Report) -> list[PartAnswer]:
+def maps_of_parts(
+    pair: SurfacePair, whole: Sequence[Proposal], parts: Parts, loss: Loss, count: int, report: Report
+) -> list[PartAnswer]:
     """What comes of taking one surface for a part of the other, for each that may be; none where neither may.
 
-    A surface without a boundary, or with a short one, is no part.
+    A surface without a boundary, or with a short one, is no part; nor is one of two that fit as a `whole`.
     """
-    sides = {"source": (pair.source, pair.target), "target": (pair.target, pair.source)}
-    open_sides = [name for name, (part, _) in sides.items() if boundary_length(part.mesh) > LEAST_BOUNDARY]
-    asked: list[Part]
-    if parts == "auto":
-        asked = (
-            ["both"] if len(open_sides) == 2 else ["source" if name == "source" else "target" for name in open_sides]
-        )
-    else:
-        asked = [name for name in EITHER if name == parts]
+    sides: dict[Part, tuple[Surface, Surface]] = {
+        "source": (pair.source, pair.target),
+        "target": (pair.target, pair.source),
+    }
+    asked = _asked(sides, whole) if parts == "auto" else [name for name in EITHER if name == parts]
     found = []
     for number, name in enumerate(asked):
         tell = functools.partial(_tell, report, number / len(asked), 1 / len(asked))
@@ -95,6 +99,14 @@ def maps_of_parts(pair: SurfacePair, parts: Parts, loss: Loss, count: int, repor
         if candidates:
             found.append(PartAnswer(name, candidates))
     return found
+
+
+def _asked(sides: Mapping[Part, tuple[Surface, Surface]], whole: Sequence[Proposal]) -> list[Part]:
+    """Which of the `sides` may be parts, by their boundaries, where a map of the whole does not explain all."""
+    if min(one.neg_log_likelihood for one in whole) < WHOLE:
+        return []
+    cut = [name for name, (part, _) in sides.items() if boundary_length(part.mesh) > LEAST_BOUNDARY]
+    return cut if len(cut) < len(sides) else ["both"]
 
 
 def boundary_length(mesh: Mesh) -> float:

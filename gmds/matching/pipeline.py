@@ -139,7 +139,7 @@ def match(  # noqa: PLR0913, PLR0915 - the signature is a promise
         maps = proposals(pair, views, starts_of(pair), lambda share: report("proposing", 0.2 + 0.3 * share))
         proposed.append((pair, likely_maps(maps, pair.simplified[0].areas), given))
         if distance is None and (landmarks is None or parts != "auto"):
-            of_parts += maps_of_parts(pair, parts, loss, count, report)
+            of_parts += maps_of_parts(pair, maps, parts, loss, count, report)
     part = likelier_part(of_parts, [one for _, maps, _ in proposed for one in maps], parts)
 
     settings = {

@@ -15,8 +15,10 @@ import gmds
 from geodesics import Mesh, SurfacePoints
 from gmds import Correspondence, MatchStatus
 from gmds.evaluation import geodesic_error
-from gmds.matching.part_answers import PARTS, boundary_length, likelier_part
+from gmds.matching.pair import SurfacePair
+from gmds.matching.part_answers import LEAST_LIKELY, PARTS, WHOLE, boundary_length, likelier_part, maps_of_parts
 from gmds.matching.parts import near_image
+from gmds.mds.losses import LeastSquares
 from gmds.surface.measured import measure
 
 
@@ -153,8 +155,8 @@ def test_overruling_overrules() -> None:
     assert gmds.match(half.part, half.whole, parts="source").meta["part"] == "source"
 
 
-def named(likelihood: float) -> Any:
-    return SimpleNamespace(neg_log_likelihood=likelihood)
+def named(likelihood: float, part: str = "source") -> Any:
+    return SimpleNamespace(neg_log_likelihood=likelihood, part=part)
 
 
 def test_the_likelier_of_part_and_whole_is_taken_whatever_came_first() -> None:
@@ -164,3 +166,17 @@ def test_the_likelier_of_part_and_whole_is_taken_whatever_came_first() -> None:
     assert likelier_part([unlikely], [named(-12.0)], "auto") is None
     assert likelier_part([unlikely], [named(-12.0)], "source") is unlikely
     assert likelier_part([], [named(0.0)], "auto") is None
+    overlap = named(-8.0, "both")
+    assert likelier_part([overlap], [named(LEAST_LIKELY + 0.1)], "auto") is overlap, "the whole would be POOR as well"
+    assert likelier_part([overlap], [named(LEAST_LIKELY - 0.1)], "auto") is None
+
+
+def test_of_two_that_fit_as_wholes_neither_is_a_part() -> None:
+    """Half an animal and a copy of it: nothing is looked for, unless it is asked for."""
+    surface = measure(half_animal().part)
+    pair = SurfacePair(surface, surface)
+    report = lambda stage, share: None  # noqa: E731
+    assert maps_of_parts(pair, [named(WHOLE - 0.1)], "auto", LeastSquares(), 100, report) == []
+    assert maps_of_parts(pair, [named(WHOLE - 0.1)], "neither", LeastSquares(), 100, report) == []
+    found = maps_of_parts(pair, [named(WHOLE + 0.1)], "auto", LeastSquares(), 100, report)
+    assert [one.part for one in found] == ["both"]
