@@ -1,6 +1,7 @@
 """Parts of surfaces: error where there is a counterpart, and how well what has none is marked.
 
     GMDS_DATA=... python -m benchmarks.accuracy.parts [--groups PFAUST-M,PFAUST-H] [--half reporting] [--workers 2]
+    pip install pyfmaps==1.3.1; GMDS_DATA=... python -m benchmarks.accuracy.parts --peer
 
 The pairs of `partial/pairs.json`, every mesh turned and resized at random, defaults only. Mean geodesic error x100 on
 what has a counterpart (protocol of `gmds benchmark`), overlap IoU, precision and recall of `valid` by vertices with a
@@ -25,12 +26,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import gmds
+from benchmarks.accuracy.peers import functional_map
 from benchmarks.accuracy.runs import ONE_THREAD, code_version
 from benchmarks.markdown import table
 from benchmarks.places import RESULTS
 from geodesics import Mesh, SurfacePoints, read_mesh
 from geodesics.arrays import Integers
-from gmds.benchmarking.run import turned
+from gmds.benchmarking.run import Matcher, turned
+from gmds.correspondence import Correspondence
 from gmds.evaluation import geodesic_error, protocol_subset
 from gmds.files.table import read_table, write_table
 from gmds.registration.residuals import Residuals
@@ -65,10 +68,20 @@ def is_development(name: str) -> bool:
 
 def row(entry: Mapping[str, str], version: str) -> dict[str, Any]:
     """One pair, matched and judged."""
+    return judged_row(entry, *meshes_and_truth(entry), version)
+
+
+def row_of_peer(entry: Mapping[str, str], version: str) -> dict[str, Any]:
+    """The same pair, matched by pyFM as in `benchmarks.accuracy.peers`."""
+    return judged_row(entry, *meshes_and_truth(entry), version, functional_map)
+
+
+def meshes_and_truth(entry: Mapping[str, str]) -> tuple[tuple[Mesh, Mesh], Known]:
+    """What a pair of `pairs.json` names."""
     data = Path(os.environ["GMDS_DATA"])
-    meshes = [read_mesh(data / entry[side]) for side in ("source", "target")]
     truth = np.load(data / entry["truth"])
-    return judged_row(entry, (meshes[0], meshes[1]), Known(truth["src"], truth["gt"], truth["missing"]), version)
+    known = Known(truth["src"], truth["gt"], truth["missing"])
+    return (read_mesh(data / entry["source"]), read_mesh(data / entry["target"])), known
 
 
 class Known(NamedTuple):
@@ -79,7 +92,9 @@ class Known(NamedTuple):
     missing: Integers
 
 
-def judged_row(names: Mapping[str, str], meshes: tuple[Mesh, Mesh], known: Known, version: str) -> dict[str, Any]:
+def judged_row(
+    names: Mapping[str, str], meshes: tuple[Mesh, Mesh], known: Known, version: str, matcher: Matcher = gmds.match
+) -> dict[str, Any]:
     """Two meshes turned and resized at random by the `name` of the pair, matched and judged."""
     rng = np.random.default_rng([0, *names["name"].encode()])
     source, target = (turned(mesh, rng) for mesh in meshes)
@@ -88,14 +103,12 @@ def judged_row(names: Mapping[str, str], meshes: tuple[Mesh, Mesh], known: Known
         truth = SurfacePoints(target, truth.face, truth.barycentric)
     gmds.match(quadruped(n_vertices=600), quadruped(n_vertices=600))  # so that no pair pays for imports
     started = time.process_time()
-    answer = gmds.match(source, target)
+    answer = matcher(source, target)
     seconds = time.process_time() - started
     judged = protocol_subset(len(known.there))
     error = 100 * float(geodesic_error(answer, truth[judged], known.there[judged]).mean())
     there, gone = np.unique(known.there), np.setdiff1d(known.missing, known.there)
     kept, wrong = int(answer.valid[there].sum()), int(answer.valid[gone].sum())
-    evidence = answer.meta["evidence"]
-    likelihood = sum(Residuals(**evidence[way]).neg_log_likelihood for way in ("outline", "outline_back"))
     return {
         "pair": names["name"],
         "group": names["group"],
@@ -107,10 +120,20 @@ def judged_row(names: Mapping[str, str], meshes: tuple[Mesh, Mesh], known: Known
         "recall": f"{kept / max(len(there), 1):.4f}",
         "cpu_seconds": f"{seconds:.2f}",
         "part": answer.meta.get("part", "-"),
-        "margin": f"{evidence.get('margin', 0):.2f}",
-        "likelihood": f"{likelihood:.2f}",
-        "curvature": f"{evidence['whole']['curvature']:.2f}",
-        "stress": f"{evidence['stress']:.2f}",
+        **evidence_of(answer),
+    }
+
+
+def evidence_of(answer: Correspondence) -> dict[str, str]:
+    """What our matcher says for a map; nothing of that of others."""
+    evidence = answer.meta.get("evidence")
+    if evidence is None:
+        return dict.fromkeys(("margin", "likelihood", "curvature", "stress"), "-")
+    likelihood = sum(Residuals(**evidence[way]).neg_log_likelihood for way in ("outline", "outline_back"))
+    figures = (evidence.get("margin", 0), likelihood, evidence["whole"]["curvature"], evidence["stress"])
+    return {
+        name: f"{value:.2f}"
+        for name, value in zip(("margin", "likelihood", "curvature", "stress"), figures, strict=True)
     }
 
 
@@ -177,6 +200,7 @@ def main() -> None:
     parser.add_argument("--groups", type=lambda text: text.split(","), help="names, separated by commas")
     parser.add_argument("--half", choices=("development", "reporting"))
     parser.add_argument("--workers", type=int, default=2)
+    parser.add_argument("--peer", action="store_true", help="pyFM on the same pairs")
     parser.add_argument("--output", type=Path, default=RESULTS)
     options = parser.parse_args()
     os.environ.update(ONE_THREAD)
@@ -184,11 +208,12 @@ def main() -> None:
     entries = [one for one in entries if options.groups is None or one["group"] in options.groups]
     if options.half is not None:
         entries = [one for one in entries if is_development(one["name"]) == (options.half == "development")]
-    path, version = options.output / "parts.csv", code_version()
+    name, version = ("peers_parts", "pyfmaps 1.3.1") if options.peer else ("parts", code_version())
+    path = options.output / f"{name}.csv"
     todo = [one for one in entries if one["name"] not in read_rows(path, version)]
-    rows = run(row, todo, path, version, options.workers)
+    rows = run(row_of_peer if options.peer else row, todo, path, version, options.workers)
     text = page(list(rows.values()), version)
-    (options.output / "parts.md").write_text(text, encoding="utf-8")
+    (options.output / f"{name}.md").write_text(text, encoding="utf-8")
     print(text)
 
 

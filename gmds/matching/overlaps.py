@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -28,7 +28,6 @@ MATCHED = 3  # of them, those whose regions are matched
 MARGIN = 1.5  # spacings of vertices of the target around the image that belong to the region
 GAP = 0.05  # root areas off the target, beyond which a vertex has no counterpart
 REGION_TIME = 2e-4  # heat time, in units of the area: a region is as wide as heat spreads, as in `gmds.matching.result`
-ROUNDS = 2  # of laying and matching
 
 ALL_FACES = RegistrationSettings(
     (Stage(3e-3, 4), Stage(1e-3, 4)), AsRigidAsPossible, partial=True, reciprocal=RECIPROCAL
@@ -73,20 +72,10 @@ def overlap_candidates(
     begun = [meshes[0].deformed(one.registered.y, source.mesh.vertices) for one in rough]
     laid = side_by_side(functools.partial(Laid.of, source, target), begun)
     laid = sorted(laid, key=lambda one: one.neg_log_likelihood)[:MATCHED]
-    done = _matched(laid, loss, count)
-    for number in range(1, ROUNDS):
-        report(0.5 + 0.5 * number / ROUNDS)
-        done = _matched(side_by_side(lambda both: _again(*both), done), loss, count)
-    return [candidate for candidate, _ in done]
-
-
-def _matched(laid: Sequence[Laid], loss: Loss, count: int) -> list[tuple[PartCandidate, Laid]]:
-    """The maps of their regions, the likely ones, the likeliest first, and where each came from."""
+    report(0.6)
     tried = side_by_side(lambda one: _in_regions_or_not(one, loss, count), laid)
-    found = [(candidate, one) for candidate, one in zip(tried, laid, strict=True) if candidate is not None]
-    found = [(replace(candidate, candidate=polished(candidate.candidate)), one) for candidate, one in found]
-    likely = likely_candidates([candidate for candidate, _ in found])
-    return [both for candidate in likely for both in found if both[0] is candidate]
+    likely = likely_candidates([one for one in tried if one is not None])
+    return likely_candidates([replace(one, candidate=polished(one.candidate)) for one in likely])
 
 
 def in_regions(one: Laid, loss: Loss, count: int) -> PartCandidate:
@@ -103,10 +92,3 @@ def _in_regions_or_not(one: Laid, loss: Loss, count: int) -> PartCandidate | Non
         return in_regions(one, loss, count)
     except MeshError:  # a region is too small to be matched
         return None
-
-
-def _again(one: PartCandidate, before: Laid) -> Laid:
-    """Both surfaces laid on each other as the map of the regions says, the rest of the source following."""
-    used = one.candidate.pair.source.areas > 0
-    y = np.where(used[:, None], one.images.positions, before.registered.y)
-    return Laid.of(before.source, before.target, y)

@@ -1,1 +1,1 @@
-"""Where on a whole surface a part of it lies: extremities that a cut leaves, trilateration from them, local stress."""
+"""Where a part lies on a whole, or two parts overlap: rigid alignments, extremities, trilateration, local stress."""
