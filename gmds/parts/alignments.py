@@ -147,6 +147,8 @@ def alignments(source: Judged, target: Judged, sizes: tuple[float, float], count
     (Besl and McKay 1992).
     """
     begun = _laid_on(source, target, sizes)
+    if len(begun) == 0:  # no point lies far enough from the boundary to have a frame
+        return begun
     order = np.argsort(
         alignment_costs(*_parts(begun), source.arrays, target.arrays, REACH, TURN, MISSING), kind="stable"
     )

@@ -117,6 +117,12 @@ def test_what_a_similarity_costs() -> None:
     assert turned == pytest.approx(away, abs=0.02)  # normals at 180 degrees say no
 
 
+def test_a_surface_that_is_all_boundary_has_no_alignment() -> None:
+    ribbon = judged(rectangle(2, 12))
+    assert len(alignments(ribbon, judged(rectangle(24, 24)), SIZES, 5)) == 0
+    assert len(alignments(judged(rectangle(24, 24)), ribbon, SIZES, 5)) == 0
+
+
 def _cell(one: Judged) -> tuple[np.ndarray, ...]:
     points, _, _, _, low, step, *_ = one.arrays
     return tuple(np.round((points - low) / step).astype(int).T)
