@@ -65,6 +65,7 @@ SCANS = {
     "shrec20_reversed": "SHREC'20 scan back",
 }  # sets of which the partial test set counts
 GOALS |= {SCANS["shrec20"]: "8.0", SCANS["shrec20_reversed"]: "12.0"}
+PEER = "pyfmaps 1.3.1"  # the version of what others reach
 FAILED = 20  # an error x100 above which a pair has failed
 
 
@@ -208,7 +209,8 @@ def cells_of(group: str, some: Sequence[Mapping[str, str]], goal: str) -> list[A
 
 def page(rows: Sequence[Mapping[str, str]], version: str) -> str:
     """The table of both halves."""
-    lines = ["# Parts", "", f"`python -m benchmarks.accuracy.parts` at {version}; see the script for the protocol.", ""]
+    command = f"python -m benchmarks.accuracy.parts{' --peer' if version == PEER else ''}"
+    lines = ["# Parts", "", f"`{command}` at {version}; see the script for the protocol.", ""]
     for title, half in (("Reporting half", False), ("Development half", True)):
         cells = []
         for group in GOALS:
@@ -234,7 +236,7 @@ def main() -> None:
     entries = [one for one in entries if options.groups is None or one["group"] in options.groups]
     if options.half is not None:
         entries = [one for one in entries if is_development(one["name"]) == (options.half == "development")]
-    name, version = ("peers_parts", "pyfmaps 1.3.1") if options.peer else ("parts", code_version())
+    name, version = ("peers_parts", PEER) if options.peer else ("parts", code_version())
     path = options.output / f"{name}.csv"
     todo = [one for one in entries if one["name"] not in read_rows(path, version)]
     rows = run(row_of_peer if options.peer else row, todo, path, version, options.workers)
