@@ -49,6 +49,20 @@ MODULES: dict[str, tuple[str, ...]] = {
     "geodesics.topology.orientation": ("test_check", "test_repair", "test_values"),
     "geodesics.memory": ("test_memory",),
     **{f"geodesics.io.{name}": READERS for name in ("glb", "obj", "off", "opening", "ply", "stl", "text", "tosca")},
+    **dict.fromkeys(
+        [f"geodesics.io.{name}" for name in ("gltf_accessor", "gltf_container", "gltf_nodes")],
+        ("test_scenes", "test_bad_files", "test_characters"),
+    ),
+    **dict.fromkeys(
+        [
+            f"geodesics.io.{name}"
+            for name in ("vtk", "vtp", "cells", "packed_array", "polygons", "sniffing", "precision")
+        ],
+        ("test_formats_of_others", "test_polygons", "test_precision", "test_bad_files"),
+    ),
+    **{
+        f"gmds.characters.{name}": ("test_characters",) for name in ("carrying", "scene", "skeleton", "tree", "writing")
+    },
     "geodesics.io.truncation": ("test_truncation",),
     "geodesics.io.writing": ("test_io", "test_bad_files", "test_file_limits"),
     "geodesics.io.atomic": ("test_file_limits", "test_bad_files", "test_system"),

@@ -16,7 +16,10 @@ from geodesics.io.gltf_container import Gltf
 
 @dataclass(frozen=True, eq=False)
 class Placed:
-    """A mesh as a node places it; `joints` (j, 4, 4) are those of its skin in the pose of the file."""
+    """A mesh as a node places it; `joints` (j, 4, 4) are those of its skin in the pose of the file.
+
+    `node` is None where no scene places it.
+    """
 
     name: str
     mesh: dict[str, Any]
@@ -24,6 +27,7 @@ class Placed:
     weights: list[float]
     skin: int | None
     joints: Floats | None
+    node: int | None = None
 
     @property
     def mirrored(self) -> bool:
@@ -42,18 +46,19 @@ def placed_meshes(gltf: Gltf) -> Iterator[Placed]:
         if "EXT_mesh_gpu_instancing" in node.get("extensions", {}):
             raise BadContainer(f"{gltf.path}: EXT_mesh_gpu_instancing is not supported; export the copies as nodes")
         found = True
-        yield _placed(gltf, node, matrix, worlds)
+        yield _placed(gltf, index, matrix, worlds)
     if not found:
         for mesh in gltf.tree.get("meshes", []):
             yield Placed(str(mesh.get("name", "")), mesh, np.eye(4), mesh.get("weights", []), None, None)
 
 
-def _placed(gltf: Gltf, node: dict[str, Any], matrix: Floats, worlds: dict[int, Floats]) -> Placed:
+def _placed(gltf: Gltf, index: int, matrix: Floats, worlds: dict[int, Floats]) -> Placed:
+    node = gltf.item("nodes", index)
     mesh = gltf.item("meshes", node["mesh"])
     name = str(node.get("name", "") or mesh.get("name", ""))
     weights = node.get("weights", mesh.get("weights", []))
     if "skin" not in node:
-        return Placed(name, mesh, matrix, weights, None, None)
+        return Placed(name, mesh, matrix, weights, None, None, index)
     skin = gltf.item("skins", node["skin"])
     joints = np.stack([worlds.get(joint, np.eye(4)) for joint in skin["joints"]])
     if "inverseBindMatrices" in skin:
@@ -61,7 +66,7 @@ def _placed(gltf: Gltf, node: dict[str, Any], matrix: Floats, worlds: dict[int, 
         if len(bind) < len(joints):
             raise BadContainer(f"{gltf.path}: skin {node['skin']} has {len(joints)} joints and {len(bind)} matrices")
         joints = joints @ bind[: len(joints)].transpose(0, 2, 1)  # they are stored by columns
-    return Placed(name, mesh, matrix, weights, node["skin"], joints)
+    return Placed(name, mesh, matrix, weights, node["skin"], joints, index)
 
 
 def world_matrices(gltf: Gltf) -> dict[int, Floats]:
@@ -108,33 +113,40 @@ def posed(gltf: Gltf, place: Placed, primitive: dict[str, Any]) -> Floats:
     positions = read_accessor(gltf, primitive["attributes"]["POSITION"], "VEC3").astype(np.float64)
     for weight, target in zip(place.weights, primitive.get("targets", []), strict=False):
         if weight and "POSITION" in target:
-            positions = positions + float(weight) * _same_length(gltf, target["POSITION"], "VEC3", positions)
-    moved = positions @ place.matrix[:3, :3].T + place.matrix[:3, 3]
+            positions = positions + float(weight) * same_length(gltf, target["POSITION"], "VEC3", positions)
+    motion = motions(gltf, place, primitive, positions)
+    return np.asarray(np.einsum("nij,nj->ni", motion[:, :, :3], positions) + motion[:, :, 3], dtype=np.float64)
+
+
+def motions(gltf: Gltf, place: Placed, primitive: dict[str, Any], positions: Floats) -> Floats:
+    """How its skin, or else its node, moves every vertex of a primitive, (n, 3, 4)."""
+    by_node = np.broadcast_to(place.matrix[:3], (len(positions), 3, 4))
     if place.joints is None or "JOINTS_0" not in primitive["attributes"]:
-        return moved
-    joint, share = skin_of(gltf, primitive, positions)
-    if joint.max(initial=0) >= len(place.joints):
-        raise BadContainer(f"{gltf.path}: a vertex hangs on joint {joint.max()}, of {len(place.joints)}")
+        return by_node
+    joint, share = skin_of(gltf, place, primitive, positions)
     blend = np.einsum("nk,nkij->nij", share, place.joints[joint, :3])
-    skinned = np.einsum("nij,nj->ni", blend[:, :, :3], positions) + blend[:, :, 3]
-    return np.where(share.sum(axis=1, keepdims=True) > 0, skinned, moved)
+    return np.where(share.sum(axis=1)[:, None, None] > 0, blend, by_node)
 
 
-def skin_of(gltf: Gltf, primitive: dict[str, Any], positions: Floats) -> tuple[np.ndarray, Floats]:
-    """Joints (n, 4 s) of every vertex, and weights of sum 1, or 0 where no joint holds it."""
+def skin_of(gltf: Gltf, place: Placed, primitive: dict[str, Any], positions: Floats) -> tuple[np.ndarray, Floats]:
+    """Joints (n, 4 s) of the skin that hold every vertex, and weights of sum 1, or 0 where no joint holds it."""
     attributes, joints, weights = primitive["attributes"], [], []
     for number in range(len(attributes)):
         if f"JOINTS_{number}" not in attributes:
             break
-        joints.append(_same_length(gltf, attributes[f"JOINTS_{number}"], "VEC4", positions).astype(np.int64))
-        weights.append(_same_length(gltf, attributes[f"WEIGHTS_{number}"], "VEC4", positions).astype(np.float64))
+        joints.append(same_length(gltf, attributes[f"JOINTS_{number}"], "VEC4", positions).astype(np.int64))
+        weights.append(same_length(gltf, attributes[f"WEIGHTS_{number}"], "VEC4", positions).astype(np.float64))
     weight = np.concatenate(weights, axis=1)
     weight = np.where(np.isfinite(weight), np.maximum(weight, 0), 0)
     total = weight.sum(axis=1, keepdims=True)
-    return np.concatenate(joints, axis=1), np.divide(weight, total, out=np.zeros_like(weight), where=total > 0)
+    joint = np.concatenate(joints, axis=1)
+    if place.joints is None or joint.max(initial=0) >= len(place.joints):
+        raise BadContainer(f"{gltf.path}: a vertex hangs on joint {joint.max(initial=0)}, which its skin does not have")
+    return joint, np.divide(weight, total, out=np.zeros_like(weight), where=total > 0)
 
 
-def _same_length(gltf: Gltf, index: Any, kind: str, positions: Floats) -> np.ndarray:
+def same_length(gltf: Gltf, index: Any, kind: str, positions: Floats) -> np.ndarray:
+    """The table of an accessor that must have a row for every position."""
     table = read_accessor(gltf, index, kind)
     if len(table) != len(positions):
         raise BadContainer(f"{gltf.path}: accessor {index} has {len(table)} rows for {len(positions)} vertices")

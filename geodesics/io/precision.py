@@ -60,11 +60,14 @@ def _granularity(values: Floats) -> float:
     return 0.0
 
 
-def rounding_notes(mesh: Mesh, suffix: str) -> list[Note]:
-    """What is lost when a mesh goes into a file of that ending (W224)."""
+def rounding_notes(mesh: Mesh, suffix: str, *, centered: bool = True) -> list[Note]:
+    """What is lost when a mesh goes into a file of that ending (W224).
+
+    `centered`: whether a mesh far from the origin is written around its middle, with its place in the node of a .glb.
+    """
     if suffix not in (".stl", ".glb"):
         return []
-    center = offset(mesh) if suffix == ".glb" else None
+    center = offset(mesh) if suffix == ".glb" and centered else None
     there = np.zeros(3) if center is None else center
     moved = float(np.abs((mesh.vertices - there).astype(np.float32).astype(np.float64) + there - mesh.vertices).max())
     if moved > BEARABLE * median_edge(mesh):

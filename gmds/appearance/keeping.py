@@ -12,13 +12,15 @@ from geodesics.io.sniffing import sniff
 OBJ_WORDS = {"usemtl": "materials", "o": "names of objects", "g": "groups", "s": "smoothing groups", "vn": "normals"}
 
 
-def not_kept(path: Path) -> list[str]:
+def not_kept(path: Path, *, materials: bool = False, rig: bool = False) -> list[str]:
     """What of a glTF or OBJ file, of these kinds, is lost when its surface is written anew; nothing for others.
 
     Parameters
     ----------
     path : Path
         A file that was read as a mesh.
+    materials, rig : bool
+        What of a scene is carried: parts and materials, bones and shapes to morph to.
 
     Returns
     -------
@@ -28,7 +30,7 @@ def not_kept(path: Path) -> list[str]:
     data = read_bytes(path) if path.is_file() else b""
     kind = sniff(data, path) if data else ""
     if kind in ("glb", "gltf"):
-        return _of_scene(open_gltf(data, path))
+        return _of_scene(open_gltf(data, path), materials, rig)
     if kind != "obj":
         return []
     found = {row.words[0]: len(row.words) for row in statements(data, path)}
@@ -37,14 +39,14 @@ def not_kept(path: Path) -> list[str]:
     return [*kinds, *(["polygons of more than three corners (written as triangles)"] if larger else [])]
 
 
-def _of_scene(gltf: Gltf) -> list[str]:
+def _of_scene(gltf: Gltf, materials: bool, rig: bool) -> list[str]:
     tree = gltf.tree
     primitives = [each for mesh in tree.get("meshes", []) for each in mesh["primitives"]]
     there = {
-        "names of parts": len(primitives) > 1,
-        "names of materials": any(each.get("name") for each in tree.get("materials", [])),
-        "bones and their weights": bool(tree.get("skins")),
-        "shapes to morph to": any(each.get("targets") for each in primitives),
+        "names of parts": not materials and len(primitives) > 1,
+        "names of materials": not materials and any(each.get("name") for each in tree.get("materials", [])),
+        "bones and their weights": not rig and bool(tree.get("skins")),
+        "shapes to morph to": not rig and any(each.get("targets") for each in primitives),
         "animations": bool(tree.get("animations")),
     }
     return [told for told, is_there in there.items() if is_there]

@@ -14,6 +14,7 @@ from geodesics import Mesh
 from geodesics.arrays import Floats
 from geodesics.errors import FormatError, MissingExtra
 from geodesics.extras import how_to_install
+from geodesics.io.contents import Contents
 from geodesics.io.opening import read_bytes
 from geodesics.io.sniffing import sniff
 from gmds.appearance.surfaces import Shown, shown
@@ -85,14 +86,7 @@ def read_look(path: Path, mesh: Mesh, texture: Path | None = None) -> Look:
         return Look()
     found = _found(data, kind, path)
     contents = found.contents
-    corners = contents.vertices[contents.triangles]
-    near = 1e-6 * np.abs(mesh.vertices).max()  # single precision has 24 bits, 6e-8
-    if corners.shape != (mesh.n_faces, 3, 3):
-        raise BadLook(
-            f"{path}: its faces are {len(corners)}, those of the mesh {mesh.n_faces}; give a file of the same faces"
-        )
-    if not np.abs(corners - mesh.vertices[mesh.faces]).max() <= near:
-        raise BadLook(f"{path}: its faces lie elsewhere, or in another order, than those of the mesh")
+    refuse_other_faces(contents, mesh, path)
     notes: tuple[str, ...] = ()
     if len(found.materials) > 1:
         named = ", ".join(found.materials[:5])
@@ -105,6 +99,18 @@ def read_look(path: Path, mesh: Mesh, texture: Path | None = None) -> Look:
         transparent = colours.shape[1] == 4 and bool((colours[:, 3] < 255).any())
         return Look(colours if transparent else colours[:, :3], notes=notes)
     return Look(notes=notes)
+
+
+def refuse_other_faces(contents: Contents, mesh: Mesh, path: Path) -> None:
+    """`BadLook` where the faces of a file do not lie where those of a mesh do, one by one."""
+    corners = contents.vertices[contents.triangles]
+    near = 1e-6 * np.abs(mesh.vertices).max()  # single precision has 24 bits, 6e-8
+    if corners.shape != (mesh.n_faces, 3, 3):
+        raise BadLook(
+            f"{path}: its faces are {len(corners)}, those of the mesh {mesh.n_faces}; give a file of the same faces"
+        )
+    if not np.abs(corners - mesh.vertices[mesh.faces]).max() <= near:
+        raise BadLook(f"{path}: its faces lie elsewhere, or in another order, than those of the mesh")
 
 
 def _found(data: bytes, kind: str, path: Path) -> Shown:

@@ -25,25 +25,49 @@ def scene_look(data: bytes, path: Path) -> Found:
     gltf = open_gltf(data, path)
     pieces = [each for place in placed_meshes(gltf) for each in drawn(place)]
     colours = np.full((len(contents.vertices), 4), 255, dtype=np.uint8)
-    uv = np.zeros((len(contents.vertices), 2))
+    uv = np.zeros((len(contents.triangles), 3, 2))
     coloured, textured, image = False, False, None
     for part, piece in zip(contents.parts, pieces, strict=True):
-        rows, attributes = slice(part.vertices.start, part.vertices.stop), piece["attributes"]
-        if "COLOR_0" in attributes:
-            kind = gltf.item("accessors", attributes["COLOR_0"])["type"]
-            values = _fractions(read_accessor(gltf, attributes["COLOR_0"], kind))
-            colours[rows, : values.shape[1]] = np.rint(255 * np.clip(np.nan_to_num(values), 0, 1))
+        if "COLOR_0" in piece["attributes"]:
+            colours[part.vertices.start : part.vertices.stop] = colours_of(gltf, piece)
             coloured = True
         texture = _texture(gltf, piece)
-        name = f"TEXCOORD_{texture.get('texCoord', 0)}"
-        if name in attributes:
-            uv[rows] = _fractions(read_accessor(gltf, attributes[name], "VEC2")) * (1, -1) + (0, 1)  # v goes down
+        moved = texture.get("extensions", {}).get("KHR_texture_transform", {})
+        name = f"TEXCOORD_{moved.get('texCoord', texture.get('texCoord', 0))}"
+        if name in piece["attributes"]:
+            rows = slice(part.faces.start, part.faces.stop)
+            places = _transformed(coordinates_of(gltf, piece, name), moved) * (1, -1) + (0, 1)  # v goes down
+            uv[rows] = places[contents.triangles[rows] - part.vertices.start]
             textured = True
             image = _image(gltf, texture) if image is None else image
     materials = tuple(dict.fromkeys(part.material for part in contents.parts if part.material))
     if textured and np.isfinite(uv).all():
-        return contents, None, uv[contents.triangles], image, materials
+        return contents, None, uv, image, materials
     return contents, colours if coloured else None, None, None, materials
+
+
+def coordinates_of(gltf: Gltf, piece: dict[str, Any], name: str) -> Floats:
+    """Texture coordinates (n, 2) of a primitive, as they are in the file: v goes down."""
+    values = read_accessor(gltf, piece["attributes"][name], "VEC2")
+    quantised = "KHR_mesh_quantization" in gltf.tree.get("extensionsUsed", [])
+    return np.asarray(values, dtype=np.float64) if quantised else _fractions(values)
+
+
+def colours_of(gltf: Gltf, piece: dict[str, Any]) -> NDArray[np.uint8]:
+    """Colours (n, 4) of the vertices of a primitive."""
+    index = piece["attributes"]["COLOR_0"]
+    values = _fractions(read_accessor(gltf, index, gltf.item("accessors", index)["type"]))
+    colours = np.full((len(values), 4), 255, dtype=np.uint8)
+    colours[:, : values.shape[1]] = np.rint(255 * np.clip(np.nan_to_num(values), 0, 1))
+    return colours
+
+
+def _transformed(uv: Floats, moved: dict[str, Any]) -> Floats:
+    """Coordinates scaled, turned and moved as KHR_texture_transform says."""
+    turn = float(moved.get("rotation", 0))
+    rotation = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
+    scale, offset = (np.array(moved.get(name, [least] * 2), float) for name, least in (("scale", 1), ("offset", 0)))
+    return np.asarray((uv * scale) @ rotation.T + offset, dtype=np.float64)
 
 
 def _fractions(values: NDArray[Any]) -> Floats:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from geodesics import Mesh
 from geodesics.io import atomic_write
+from geodesics.io.precision import offset
 from geodesics.io.vtp_writing import encode_vtp
 from gmds.appearance.reading import BadLook, Look
 
@@ -141,15 +142,24 @@ def _vtp(mesh: Mesh, look: Look, values: Values) -> bytes:
 
 
 def _glb(mesh: Mesh, look: Look, _: Values) -> bytes:
+    """Far from the origin around the middle, with the place in the node, as `write_mesh` does."""
     import trimesh
 
+    center = offset(mesh)
+    there = np.zeros(3) if center is None else center
     if look.uv is None:
-        shape = trimesh.Trimesh(mesh.vertices, mesh.faces, vertex_colors=look.colours, process=False, validate=False)
+        place, faces = mesh.vertices - there, mesh.faces
+        shape = trimesh.Trimesh(place, faces, vertex_colors=look.colours, process=False, validate=False)
+    else:
+        corners = np.column_stack([mesh.faces.reshape(-1, 1).astype(np.float64), look.uv.reshape(-1, 2)])
+        split, index = np.unique(corners, axis=0, return_inverse=True)
+        texture = {"baseColorTexture": look.image, "metallicFactor": 0.0, "roughnessFactor": 1.0}
+        material = trimesh.visual.material.PBRMaterial(**texture)
+        visual = trimesh.visual.TextureVisuals(uv=split[:, 1:], material=material)
+        place, faces = mesh.vertices[split[:, 0].astype(np.int64)] - there, index.reshape(-1, 3)
+        shape = trimesh.Trimesh(place, faces, visual=visual, process=False, validate=False)
+    if center is None:
         return bytes(trimesh.exchange.gltf.export_glb(shape, include_normals=False))
-    corners = np.column_stack([mesh.faces.reshape(-1, 1).astype(np.float64), look.uv.reshape(-1, 2)])
-    split, index = np.unique(corners, axis=0, return_inverse=True)
-    material = trimesh.visual.material.PBRMaterial(baseColorTexture=look.image, metallicFactor=0.0, roughnessFactor=1.0)
-    visual = trimesh.visual.TextureVisuals(uv=split[:, 1:], material=material)
-    place, faces = mesh.vertices[split[:, 0].astype(np.int64)], index.reshape(-1, 3)
-    shape = trimesh.Trimesh(place, faces, visual=visual, process=False, validate=False)
-    return bytes(trimesh.exchange.gltf.export_glb(shape, include_normals=False))
+    scene = trimesh.Scene()
+    scene.add_geometry(shape, transform=trimesh.transformations.translation_matrix(center))
+    return bytes(trimesh.exchange.gltf.export_glb(scene, include_normals=False))

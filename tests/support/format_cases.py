@@ -78,7 +78,7 @@ CASES: list[tuple[str, str, list[Case]]] = [
         *cases(("several primitives, also of points or lines", "halves.glb")),
         ("several meshes, or one placed several times", "twice.glb", glb(twice)),
         *cases(("without indices, strips, fans; sparse numbers", "apart.glb"), ("quantised positions", "quantised.glb"),
-               ("skins and morph weights (the pose of the file)", "skinned.glb")),
+               ("skins and morph weights (the pose of the file; `gmds transfer --rig` carries them)", "skinned.glb")),
         ("nodes of negative scale", "mirrored.glb", glb(mirrored)),
         *cases(("images in other files (not opened)", "image.glb")),
         ("compressed by Draco, or by meshopt", "draco.glb", glb(draco)),

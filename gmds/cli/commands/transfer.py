@@ -9,6 +9,7 @@ import click
 
 from gmds.cli.fields import FILE, draw, picture_option, write_field
 from gmds.cli.group import Command
+from gmds.cli.looks import COLOURS, is_scene, look_carried, scene_carried, tell_what_is_lost, tell_what_is_rounded
 from gmds.cli.output import emit, json_option, note, valid_count
 from gmds.cli.paths import EndingIn
 
@@ -28,7 +29,7 @@ METHODS = {
     "labels": "as labels",
     "weights": "by interpolation, rows summing to 1",
     "vectors": "turned as the map turns the surface",
-    "colours": "by interpolation, as colours",
+    "colours": COLOURS,
 }
 
 
@@ -42,6 +43,7 @@ METHODS = {
 @click.option("--most", type=click.IntRange(1), metavar="BONES", help="Keep the heaviest weights of a vertex.")
 @click.option("--texture", type=IMAGE, help="Image that an OBJ has coordinates of.")
 @click.option("--look", type=FILE, help="File with colours or texture, when that of the target has none; same faces.")
+@click.option("--rig", is_flag=True, help="Carry skeleton, weights and shapes to morph to, .glb to .glb.")
 @click.option(
     "-o", "--output", required=True, type=EndingIn(".npy", ".csv", *MESHES), help="Where the carried values go."
 )
@@ -56,6 +58,7 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
       gmds transfer map.npz --source dog.ply --target wolf.off --values bones.npy --kind weights -o skin.npy
       gmds transfer map.npz --source dog.ply --target wolf.off --look wolf.glb -o dog.glb
       gmds transfer map.npz --source dog.ply --target wolf.obj --texture wolf.png -o dog.obj
+      gmds transfer map.npz --source dog.ply --target wolf.off --look wolf.glb --rig -o dog-rigged.glb
 
     \b
     Values are
@@ -73,8 +76,9 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
     The output is an array (.npy), a table (.csv), or the source with the values on its vertices: .ply and .vtp keep
     all of them (words by number, which is told), .obj and .glb colours. Without --values the look of the target's file
     is carried: its vertex colours (.ply, .obj, .glb), or its texture, to an .obj with a .mtl and a .png, or to a .glb.
-    Names, materials, bones and shapes to morph to of a scene are not carried, which is told; --kind weights carries
-    weights of bones from a table.
+    From .glb to .glb parts and materials are carried with their names and images; with --rig so are the skeleton, moved
+    into the source, weights (four to a vertex at most; --most) and shapes to morph to. What is not carried is told.
+    --kind weights carries weights of bones from a table.
     Where the texture is cut, faces whose corners go to different sides take all of it from one side, stretched up to
     the seam; their number is told.
     A .glb with a texture is cut open along its seams: weld it (`gmds repair`), match that, and give the .glb to --look.
@@ -91,44 +95,28 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
     meshes = read_mesh(source), read_mesh(target)
     answer = Correspondence.load(map_file, *meshes)
     result = {"file": str(output), "vertices": len(answer.points)}
+    look, kept = options["look"] or target, False
+    if options["rig"] and (options["values"] or output.suffix.lower() != ".glb" or not is_scene(look)):
+        raise click.UsageError("--rig carries what is in a .glb to a .glb, without --values")
     if options["values"] is None:
         if options["kind"] or options["labels"] or options["picture"]:
             raise click.UsageError("--kind, --labels and --picture are for --values")
-        result |= _carry_look(answer, options["look"] or target, options["texture"], output)
+        kept = output.suffix.lower() == ".glb" and is_scene(look) and not options["texture"]
+        if options["most"] and not (kept and options["rig"]):
+            raise click.UsageError("--most is for --kind weights, and for --rig")
+        if kept:
+            result |= scene_carried(answer, look, output, options["rig"], options["most"])
+        else:
+            result |= look_carried(answer, look, options["texture"], output)
     else:
         if options["most"] and kind != "weights":
-            raise click.UsageError("--most is for --kind weights")
+            raise click.UsageError("--most is for --kind weights, and for --rig")
         result |= _carry_values(answer, options["values"], kind, output, options["picture"], options["most"])
     if is_mesh:
-        _tell_what_is_lost(source, options["look"] or target)
+        tell_what_is_lost(source)
+        tell_what_is_lost(look, materials=kept, rig=kept and options["rig"])
+        tell_what_is_rounded(answer, output, centered=not kept)
     emit({**result, **valid_count(answer, as_json)}, as_json)
-
-
-def _tell_what_is_lost(*files: Path) -> None:
-    from gmds.appearance.keeping import not_kept
-
-    for file in files:
-        if lost := not_kept(file):
-            note(f"not carried from {file}: {', '.join(lost)}")
-
-
-def _carry_look(answer: Correspondence, file: Path, texture: Path | None, output: Path) -> dict[str, Any]:
-    """Colours or texture of a file of the target, to a mesh; what was done."""
-    from gmds.appearance import Look, carry_uv, read_look, write_look
-
-    look = read_look(file, answer.target, texture)
-    for told in look.notes:
-        note(told)
-    if look.uv is not None:
-        uv, across = carry_uv(answer, look.uv)
-        files = write_look(output, answer.source, Look(uv=uv, image=look.image))
-        if look.image is None:
-            note(f"{file} has no image inside; give it with --texture")
-        return {"carried": "texture", "files": [str(file) for file in files], "faces_on_seams": int(across.sum())}
-    if look.colours is None:
-        raise click.UsageError(f"{file} has neither colours nor texture coordinates; give --values")
-    write_look(output, answer.source, Look(colours=answer.transfer(look.colours)))
-    return {"carried": METHODS["colours"]}
 
 
 def _carry_values(

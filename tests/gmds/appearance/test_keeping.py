@@ -30,6 +30,12 @@ QUAD = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"
 def test_what_is_lost(tmp_path: Path, content: bytes, lost: list[str]) -> None:
     (tmp_path / "a").write_bytes(content)
     assert not_kept(tmp_path / "a") == lost
+    animated = [word for word in lost if word == "animations"]
+    assert kind_of(content) != "scene" or not_kept(tmp_path / "a", materials=True, rig=True) == animated
+
+
+def kind_of(content: bytes) -> str:
+    return "scene" if content[:4] == b"glTF" or content[:1] == b"{" else "other"
 
 
 def test_a_file_that_is_two(tmp_path: Path) -> None:

@@ -1,0 +1,75 @@
+"""Looks and scenes of files, carried for the command line, and what is told of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from gmds.cli.output import note
+
+if TYPE_CHECKING:
+    from gmds import Correspondence
+
+COLOURS = "by interpolation, as colours"
+
+
+def is_scene(file: Path) -> bool:
+    """Whether a file is a GLB or a glTF."""
+    from geodesics.io.opening import read_bytes
+    from geodesics.io.sniffing import sniff
+
+    return sniff(read_bytes(file), file) in ("glb", "gltf")
+
+
+def tell_what_is_lost(file: Path, *, materials: bool = False, rig: bool = False) -> None:
+    """What of a file is not carried, if it has `materials`, or `materials` and `rig`."""
+    from gmds.appearance.keeping import not_kept
+
+    if lost := not_kept(file, materials=materials, rig=rig):
+        hint = "; --rig carries bones and shapes" if materials and not rig and "bones and their weights" in lost else ""
+        note(f"not carried from {file}: {', '.join(lost)}{hint}")
+
+
+def tell_what_is_rounded(answer: Correspondence, output: Path, *, centered: bool) -> None:
+    """What single precision does to the source; `centered` as in `rounding_notes`."""
+    from geodesics.io.precision import rounding_notes
+
+    for told in rounding_notes(answer.source, output.suffix.lower(), centered=centered):
+        note(str(told))
+
+
+def scene_carried(answer: Correspondence, file: Path, output: Path, rig: bool, most: int | None) -> dict[str, Any]:
+    """Parts and materials of a scene of the target, with `rig` also bones and shapes, to a .glb; what was done."""
+    from geodesics.io import atomic_write
+    from gmds.characters import carry_scene
+
+    content, told = carry_scene(answer, file, rig=rig, most=most or 4)
+    if not (told.materials or told.coordinates or told.coloured or told.bones or told.shapes):
+        raise click.UsageError(f"{file} has neither colours nor texture coordinates; give --values")
+    with atomic_write(output) as stream:
+        stream.write(content)
+    result: dict[str, Any] = {"carried": "scene", "parts": told.parts, "materials": told.materials}
+    if rig:
+        result |= {"bones": told.bones, "shapes": told.shapes}
+    return result | {"faces_on_seams": told.faces_on_seams}
+
+
+def look_carried(answer: Correspondence, file: Path, texture: Path | None, output: Path) -> dict[str, Any]:
+    """Colours or texture of a file of the target, to a mesh; what was done."""
+    from gmds.appearance import Look, carry_uv, read_look, write_look
+
+    look = read_look(file, answer.target, texture)
+    for told in look.notes:
+        note(told)
+    if look.uv is not None:
+        uv, across = carry_uv(answer, look.uv)
+        files = write_look(output, answer.source, Look(uv=uv, image=look.image))
+        if look.image is None:
+            note(f"{file} has no image inside; give it with --texture")
+        return {"carried": "texture", "files": [str(file) for file in files], "faces_on_seams": int(across.sum())}
+    if look.colours is None:
+        raise click.UsageError(f"{file} has neither colours nor texture coordinates; give --values")
+    write_look(output, answer.source, Look(colours=answer.transfer(look.colours)))
+    return {"carried": COLOURS}
