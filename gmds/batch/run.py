@@ -135,7 +135,7 @@ class _Run:
         """Measure what is to be measured, match what is to be matched."""
         told = {"parameters": self.parameters | {"n_samples": self.options.get("n_samples")}, "versions": versions()}
         self.manifest.tell("run", {**told, "host": platform.node(), "pairs": len(self.collection.pairs)})
-        mirrored = self.parameters["orientation"] != "preserve"
+        mirrored = self.parameters["orientation"] in ("reverse", "any")
         jobs = (ShapeJob(shape, self.store, mirrored) for shape in self.collection.shapes.values())
         for shape_job, record in outcomes(client, measure_shape, jobs):
             name = shape_job.shape.name

@@ -10,11 +10,16 @@ import click
 from gmds.cli.choices import LOSSES, PARTS, chosen_distance, chosen_loss, distance_option, metric_option
 from gmds.cli.output import seed_option
 
+orientation_option = click.option(
+    "--orientation",
+    type=click.Choice(["preserve", "reverse", "any", "auto"]),
+    default="preserve",
+    show_default=True,
+    help="What the map does to left and right; auto reverses it where that is far likelier, any where it is likelier.",
+)
 OPTIONS = (
     click.option("--samples", type=int, help="How many samples the embedding places.  [default: 300]"),
-    click.option(
-        "--orientation", type=click.Choice(["preserve", "reverse", "any"]), default="preserve", show_default=True
-    ),
+    orientation_option,
     click.option(
         "--parts",
         type=click.Choice(PARTS),

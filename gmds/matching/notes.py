@@ -4,6 +4,8 @@
 |---|---|
 | W205 | the surfaces differ in topology: no continuous map takes all of one to all of the other (not said of parts) |
 | W207 | the status is AMBIGUOUS: another map, for instance the mirrored one, does nearly as well |
+| W225 | the mirror image of the target is far likelier: a right bone on a left one |
+| W226 | with its faces turned, or as a mirror image with faces turned, the target is far likelier: its inside is out |
 | W301 | landmarks that were given off the surface were moved to it, and how far |
 | W302 | soft landmarks that the map misses by far |
 """
@@ -14,6 +16,7 @@ from geodesics import Mesh
 from geodesics.errors import Note
 from geodesics.topology.invariants import invariants
 from gmds.maps.point_map import MatchStatus
+from gmds.parts.handedness import Image
 
 
 def match_notes(source: Mesh, target: Mesh, status: MatchStatus, *, of_a_part: bool = False) -> list[Note]:
@@ -28,3 +31,18 @@ def match_notes(source: Mesh, target: Mesh, status: MatchStatus, *, of_a_part: b
     if status is MatchStatus.AMBIGUOUS:
         notes.append(Note("W207", "warning", status.value))
     return notes
+
+
+def image_notes(image: Image, *, taken: bool) -> list[Note]:
+    """What is said of a match where another `image` of the target is far likelier, and was `taken` or was not."""
+    what = "as a mirror image of itself" if image.reflected else "as it is"
+    if image.turned:
+        code, found = "W226", f"the target is far likelier {what} with its faces turned: its inside is out"
+        advice = "turn them (gmds repair --turn), or " if not image.reflected else ""
+    else:
+        code, found = "W225", f"the target is far likelier {what}, a right one to the left one of the source"
+        advice = ""
+    if taken:
+        return [Note(code, "info", f"{found}; the map goes to that")]
+    told = f"the map is probably wrong; {advice}take orientation='auto' (--orientation auto)"
+    return [Note(code, "warning", f"{found}; {told}, whose map is the first of the candidates")]

@@ -99,7 +99,7 @@ def in_region(
 
 def matched_in(source: Surface, region: Region, loss: Loss, count: int, images: SurfacePoints) -> PartCandidate:
     """The map of the source to a region, from `images` (n,) on the whole of that."""
-    pair = SurfacePair(source, region.surface, None, source.reflected != region.whole.reflected)
+    pair = SurfacePair(source, region.surface, None, source.reverses != region.whole.reverses)
     places = region.surface.mesh.vertices[images.nearest_vertices()[pair.simplified[0].origin]]
     candidate = make_candidate(pair, Proposal.of(pair, places), loss, count)
     vertices, usable = region.surface.mesh.vertices, pair.full[1].usable

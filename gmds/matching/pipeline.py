@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
@@ -14,14 +14,13 @@ from geodesics.threads import on_one_blas_thread
 from gmds.correspondence import Correspondence
 from gmds.errors import SampleCountError
 from gmds.landmarks.checking import place_landmarks
-from gmds.matching.candidates import GivenDistances, mirrored
+from gmds.matching.attempts import ASKED, Orientation, Wanted, attempted, likelier_image, with_candidate
+from gmds.matching.candidates import mirrored
 from gmds.matching.large_surfaces import CoarseCopies
-from gmds.matching.notes import match_notes
-from gmds.matching.pair import SurfacePair
-from gmds.matching.part_answers import PARTS, PartAnswer, Parts, likelier_part, maps_of_parts
-from gmds.matching.proposals import Proposal, likely_maps, proposals
+from gmds.matching.notes import image_notes, match_notes
+from gmds.matching.part_answers import PARTS, Parts, likelier_part
 from gmds.matching.result import correspondence_of
-from gmds.matching.steps import embedded, registered, starts_of, views_of
+from gmds.matching.steps import embedded, registered
 from gmds.mds.losses import LeastSquares, Loss
 from gmds.provenance import method_in_words
 from gmds.suggestions import suggest_keywords
@@ -30,7 +29,6 @@ from gmds.surface.measured import Surface, measure
 FEWEST_SAMPLES = 3  # fewer leave a surface free to turn
 
 SAMPLES = 300  # of each surface, placed by the solver: with as many it was measured (benchmarks/results/notes.md)
-REFLECTED = {"preserve": (False,), "reverse": (True,), "any": (False, True)}
 
 
 @suggest_keywords
@@ -43,7 +41,7 @@ def match(  # noqa: PLR0913, PLR0915 - the signature is a promise
     loss: Loss | None = None,
     n_samples: int | None = None,
     landmarks: Any = None,
-    orientation: Literal["preserve", "reverse", "any"] = "preserve",
+    orientation: Orientation = "preserve",
     parts: Parts = "auto",
     rng: int = 0,
     progress: Callable[[str, float], None] | None = None,
@@ -72,8 +70,10 @@ def match(  # noqa: PLR0913, PLR0915 - the signature is a promise
     landmarks : array_like, pair or SoftLandmarks, optional
         Corresponding points in a form of `gmds.landmarks.check_landmarks`: those at vertices are met exactly, those
         inside a face to within the size of faces; `SoftLandmarks` pull, as far as they can be right.
-    orientation : {"preserve", "reverse", "any"}
-        What the map is to do to the orientation of the surface.
+    orientation : {"preserve", "reverse", "any", "auto"}
+        What the map is to do to the orientation of the surface; "any" takes the likelier of both. With "preserve" it is
+        told when the mirror image of the target, or the target with its faces turned, is far likelier: the answer is
+        POOR and has the map to that as its first candidate. "auto" takes that map then.
     parts : {"auto", "neither", "source", "target", "both"}
         Which surface is but a part of what the other is. With "auto" that is asked of a surface with a boundary, unless
         landmarks or a distance are given: its vertices then all have a counterpart, and of the other surface those in
@@ -112,8 +112,8 @@ def match(  # noqa: PLR0913, PLR0915 - the signature is a promise
     Sec. 5 of Aflalo, Kimmel, Raviv: Scale invariant geometry for nonrigid shapes (2013). What was added and why:
     `benchmarks/results/notes.md`.
     """
-    if orientation not in REFLECTED:
-        raise ValueError(f"orientation must be 'preserve', 'reverse' or 'any', not {orientation!r}")
+    if orientation not in ASKED:
+        raise ValueError(f"orientation must be one of {', '.join(map(repr, ASKED))}, not {orientation!r}")
     if parts not in PARTS:
         raise ValueError(f"parts must be one of {', '.join(map(repr, PARTS))}, not {parts!r}")
     if parts not in ("auto", "neither") and distance is not None:
@@ -131,16 +131,15 @@ def match(  # noqa: PLR0913, PLR0915 - the signature is a promise
     if copies is not None:
         constraints = None if constraints is None else copies.landmarks(constraints)
         measured, facing = copies.copies
-    proposed: list[tuple[SurfacePair, list[Proposal], GivenDistances | None]] = []
-    of_parts: list[PartAnswer] = []
-    for reflected in REFLECTED[orientation]:
-        pair = SurfacePair(measured, facing.reflection if reflected else facing, constraints, reflected)
-        views, given = views_of(pair, distance)
-        maps = proposals(pair, views, starts_of(pair), lambda share: report("proposing", 0.2 + 0.3 * share))
-        proposed.append((pair, likely_maps(maps, pair.simplified[0].areas), given))
-        if distance is None and (landmarks is None or parts != "auto"):
-            of_parts += maps_of_parts(pair, maps, parts, loss, count, report)
-    part = likelier_part(of_parts, [one for _, maps, _ in proposed for one in maps], parts)
+    wanted = Wanted(
+        constraints, distance, loss, count, parts, report, distance is None and (landmarks is None or parts != "auto")
+    )
+    tried = attempted(measured, facing, orientation, wanted)
+    other = likelier_image(tried, orientation, wanted)
+    if other is not None and orientation != "preserve":
+        tried = [other]
+    of_parts = [one for attempt in tried for one in attempt.of_parts]
+    part = likelier_part(of_parts, [one for attempt in tried for one in attempt.maps], parts)
 
     settings = {
         "n_samples": min(count, len(measured.regular.usable)),
@@ -152,13 +151,16 @@ def match(  # noqa: PLR0913, PLR0915 - the signature is a promise
     if part is not None:
         answer = part.correspondence({"parameters": settings})
     else:
-        candidates = [one for pair, maps, given in proposed for one in embedded(pair, maps, loss, count, given, report)]
+        candidates = [one for way in tried for one in embedded(way.pair, way.maps, loss, count, way.given, report)]
         candidates.sort(key=lambda candidate: candidate.evidence.neg_log_likelihood)
         candidates = registered(candidates, report) if distance is None else candidates
         answer = correspondence_of([*candidates, *mirrored(candidates[0])], {"parameters": settings})
+    if other is not None and orientation == "preserve":
+        answer = with_candidate(answer, other, wanted)
     answer = answer if copies is None else copies.prolonged(answer)
     of_a_part = "part" in answer.meta
     notes = match_notes(measured.original, facing.original, answer.status, of_a_part=of_a_part)
+    notes += [] if other is None else image_notes(other.image, taken=orientation != "preserve")
     if placed is not None:
         answer, missed = placed.applied(answer)
         notes += [*placed.notes, *missed]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,12 +53,20 @@ class Similarities:
         return np.asarray(self.sizes[:, None, None] * turned + self.shifts[:, None], dtype=np.float64)
 
 
+class Framed(NamedTuple):
+    """Places (k, 3) of a surface with their `frames` (k, 3, 3)."""
+
+    places: Floats
+    frames: Floats
+
+
 @dataclass(frozen=True, eq=False)
 class Judged:
     """A simplified surface as alignments are judged by: points on it, and its closest vertex to any place near it."""
 
     surface: Surface
     mesh: DeformableMesh
+    grid: int = GRID
 
     @cached_property
     def points(self) -> Integers:
@@ -102,7 +110,7 @@ class Judged:
         """The closest vertex of every cell of a box around the surface."""
         places = self.mesh.mesh.vertices[self.mesh.usable]
         low, high = places.min(axis=0) - MARGIN, places.max(axis=0) + MARGIN
-        step = float((high - low).max() / GRID)
+        step = float((high - low).max() / self.grid)
         axes = [
             start + step * np.arange(int(np.ceil((end - start) / step)) + 1)
             for start, end in zip(low, high, strict=True)
@@ -146,13 +154,11 @@ def alignments(source: Judged, target: Judged, sizes: tuple[float, float], count
     nearest the boundary of the other surface, either way, may be missing there. The best are improved by closest points
     (Besl and McKay 1992).
     """
-    begun = _laid_on(source, target, sizes)
+    begun = laid_on(framed(source, FRAMES), framed(target, FRAMES), sizes)
     if len(begun) == 0:  # no point lies far enough from the boundary to have a frame
         return begun
-    order = np.argsort(
-        alignment_costs(*_parts(begun), source.arrays, target.arrays, REACH, TURN, MISSING), kind="stable"
-    )
-    best = begun[order[:REFINED]]
+    costs = alignment_costs(*_parts(begun), source.arrays, target.arrays, REACH, TURN, MISSING)
+    best = begun[np.argsort(costs, kind="stable")[:REFINED]]
     refined_alignments(*_parts(best), source.arrays, target.arrays, CLOSEST_REACH, STEPS, *sizes)
     costs = alignment_costs(*_parts(best), source.arrays, target.arrays, FINE_REACH, TURN, MISSING)
     order = np.argsort(costs, kind="stable")
@@ -170,26 +176,25 @@ def _parts(some: Similarities) -> tuple[Floats, Floats, Floats]:
     return some.rotations, some.sizes, some.shifts
 
 
-def _laid_on(source: Judged, target: Judged, sizes: tuple[float, float]) -> Similarities:
+def laid_on(source: Framed, target: Framed, sizes: tuple[float, float]) -> Similarities:
     """All similarities that lay the frame of a point of the source, either way round, on one of the target."""
-    (ours, here), (theirs, there) = (_framed(one) for one in (source, target))
     flips = np.array([[1.0, 1.0, 1.0], [1.0, -1.0, -1.0]])
-    flipped = there[:, None] * flips[None, :, :, None]  # (q, 2, 3, 3)
-    rotations = np.einsum("qfca,pcb->pqfab", flipped, here)
+    flipped = target.frames[:, None] * flips[None, :, :, None]  # (q, 2, 3, 3)
+    rotations = np.einsum("qfca,pcb->pqfab", flipped, source.frames)
     shape = rotations.shape[:3]
-    turned = np.einsum("pqfab,pb->pqfa", rotations, source.surface.mesh.vertices[ours])
-    goals = np.broadcast_to(target.surface.mesh.vertices[theirs][None, :, None], (*shape, 3))
+    turned = np.einsum("pqfab,pb->pqfa", rotations, source.places)
+    goals = np.broadcast_to(target.places[None, :, None], (*shape, 3))
     ratio = sizes[1] / sizes[0]
     tried = sizes[0] * ratio ** np.linspace(0.0, 1.0, 1 + max(1, round(np.log(ratio) / np.log(STEP_OF_SIZE))))
-    every = [(rotations, size, goals - size * turned) for size in tried]
     return Similarities(
-        np.concatenate([one[0].reshape(-1, 3, 3) for one in every]),
-        np.concatenate([np.full(int(np.prod(shape)), one[1]) for one in every]),
-        np.concatenate([one[2].reshape(-1, 3) for one in every]),
+        np.concatenate([rotations.reshape(-1, 3, 3)] * len(tried)),
+        np.repeat(tried, int(np.prod(shape))),
+        np.concatenate([(goals - size * turned).reshape(-1, 3) for size in tried]),
     )
 
 
-def _framed(one: Judged) -> tuple[Integers, Floats]:
-    vertices = one.surface.regular.samples(FRAMES)
+def framed(one: Judged, count: int) -> Framed:
+    """At most `count` points of a surface, those near its boundary left out, with their frames."""
+    vertices = one.surface.regular.samples(count)
     vertices = vertices[~near_boundary(one.surface.mesh)[vertices]]
-    return vertices, frames(one.surface, vertices)
+    return Framed(one.surface.mesh.vertices[vertices], frames(one.surface, vertices))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -36,12 +36,14 @@ EXPONENTS = (1.0, 0.5)
 class Surface:
     """The largest part of a mesh, with all vertices kept, brought to unit area and oriented.
 
-    `mesh` has the vertices of `original`, moved and scaled, and the faces `face_index` of it, the largest first.
+    `mesh` has the vertices of `original`, moved and scaled, and the faces `face_index` of it, the largest first; all of
+    them `turned` inside out where that is meant.
     """
 
     original: Mesh
     mesh: Mesh
     face_index: Integers
+    turned: bool = False
 
     def view(self, metric: Callable[[Mesh], Metric]) -> View:
         """The surface in a metric in which rough maps are made."""
@@ -80,10 +82,20 @@ class Surface:
         x = self.original.vertices[used, 0]
         return bool((x - x.mean()) @ self.mesh.vertices[used, 0] < 0)
 
+    @property
+    def reverses(self) -> bool:
+        """Whether what preserves orientation here reverses it on the original."""
+        return self.reflected != self.turned
+
     @cached_property
     def reflection(self) -> Surface:
         """The mirror image of the surface."""
         return measure(self.original, reflected=True)
+
+    @cached_property
+    def inside_out(self) -> Surface:
+        """The same surface with all faces turned."""
+        return replace(self, mesh=Mesh(self.mesh.vertices, self.mesh.faces[:, [0, 2, 1]]), turned=not self.turned)
 
     @cached_property
     def squashed_curvature(self) -> Floats:

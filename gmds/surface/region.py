@@ -28,7 +28,8 @@ class Region:
         """The faces of which all corners are among the `vertices` (n,). Raises `MeshError` (E104, E113)."""
         faces = whole.face_index[vertices[whole.mesh.faces].all(axis=1)]
         part = Mesh(whole.original.vertices, whole.original.faces[faces])
-        return cls(whole, measure(part, reflected=whole.reflected), faces)
+        measured = measure(part, reflected=whole.reflected)
+        return cls(whole, measured.inside_out if whole.turned else measured, faces)
 
     def on_measured(self, points: SurfacePoints) -> SurfacePoints:
         """Points of the measured region as points of the measured whole."""

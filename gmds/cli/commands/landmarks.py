@@ -9,12 +9,14 @@ import click
 
 from gmds.cli.group import Command
 from gmds.cli.landmark_options import check_on, landmarks_of, space_option, specimen_option
+from gmds.cli.matching_options import orientation_option
 from gmds.cli.output import emit, json_option, note, progress_bar, seed_option
 
 if TYPE_CHECKING:
     from geodesics import Mesh
     from gmds import Correspondence
     from gmds.landmarks.transfer import CarriedLandmarks
+    from gmds.matching.attempts import Orientation
 
 from gmds.cli.paths import OutputFile
 
@@ -29,6 +31,7 @@ FILE = click.Path(path_type=Path)
 @click.option("--map", "map_file", type=FILE, help="A map from SOURCE to TARGET; without it they are matched.")
 @space_option
 @specimen_option
+@orientation_option
 @seed_option
 @json_option
 def command(
@@ -39,6 +42,7 @@ def command(
     map_file: Path | None,
     space: Any,
     specimen: str | None,
+    orientation: Orientation,
     seed: int,
     as_json: bool,
 ) -> None:
@@ -78,7 +82,7 @@ def command(
     meshes = read_mesh(source), read_mesh(target)
     marks = landmarks_of(landmarks, space, meshes[0], source, specimen)
     check_on(marks, meshes[0], "source")  # likewise
-    answer = _map(*meshes, map_file, seed)
+    answer = _map(*meshes, map_file, orientation, seed)
     carried = carry_landmarks(answer, marks)
     columns = {
         "confidence": [round(float(value), 4) for value in carried.confidence],
@@ -100,13 +104,16 @@ def command(
         note(f"{int((~carried.valid).sum())} landmarks without a place are left out, as .fcsv has no word for them")
 
 
-def _map(source: Mesh, target: Mesh, map_file: Path | None, seed: int) -> Correspondence:
+def _map(source: Mesh, target: Mesh, map_file: Path | None, orientation: Orientation, seed: int) -> Correspondence:
     from gmds import Correspondence, match
 
     if map_file is not None:
         return Correspondence.load(map_file, source, target)
     with progress_bar("match") as progress:
-        return match(source, target, rng=seed, progress=progress)
+        answer = match(source, target, orientation=orientation, rng=seed, progress=progress)
+    for line in answer.meta.get("notes", ()):
+        note(f"gmds: {line}")
+    return answer
 
 
 def _told(carried: CarriedLandmarks) -> list[dict[str, Any]]:

@@ -34,6 +34,7 @@ FILE = click.Path(path_type=Path)
 @click.option(
     "--remesh", type=int, metavar="VERTICES", help="Triangulate anew, about so many vertices (extra: repair)."
 )
+@click.option("--turn", is_flag=True, help="Turn all faces inside out.")
 @json_option
 def command(mesh: Path, output: Path, maps: Path | None, as_json: bool, **steps: Any) -> None:
     """Write a better version of MESH: no repeated or degenerate faces, none turned against its neighbours.
@@ -52,7 +53,7 @@ def command(mesh: Path, output: Path, maps: Path | None, as_json: bool, **steps:
 
     import numpy as np
 
-    from geodesics import read_with_notes, write_mesh
+    from geodesics import Mesh, read_with_notes, write_mesh
     from geodesics.io import atomic_write
     from geodesics.repair.remeshing import remesh
     from geodesics.repair.repairing import repair
@@ -63,6 +64,7 @@ def command(mesh: Path, output: Path, maps: Path | None, as_json: bool, **steps:
     found = repair(given, weld=steps["weld"], cut=steps["cut"], largest=steps["largest"])
     found = _with_new_faces(found, steps["fill_holes"], steps["decimate"])
     better = found.mesh if steps["remesh"] is None else remesh(found.mesh, steps["remesh"])
+    better = Mesh(better.vertices, better.faces[:, [0, 2, 1]]) if steps["turn"] else better
     notes = [*notes, *found.notes, *write_mesh(better, output)]
     if maps is not None:
         with atomic_write(maps) as stream:

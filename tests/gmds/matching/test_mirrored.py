@@ -1,0 +1,126 @@
+"""A shape that has a handedness, and its mirror image: what is said of both, and that symmetric shapes have none."""
+
+from __future__ import annotations
+
+import functools
+
+import numpy as np
+import pytest
+from cut_shapes import cut
+
+import gmds
+from geodesics import Mesh
+from gmds.maps.point_map import MatchStatus
+from gmds.matching.attempts import SYMMETRIC, own_symmetry
+from gmds.matching.pair import SurfacePair, simplified
+from gmds.parts.handedness import AS_IT_IS, INSIDE_OUT, MIRRORED, Image, image_costs
+from gmds.shapes import humanoid, quadruped
+from gmds.shapes.figure import Figure, figure
+from gmds.shapes.implicit import Cone, Ellipsoid
+from gmds.shapes.skeleton import Body, Joint
+from gmds.surface.measured import measure
+
+BONE = Body(
+    joints=(Joint("bone", "", (0.0, 0.0, 0.0)),),
+    parts=(
+        Cone("bone", (-0.8, 0.0, 0.0), (0.7, 0.05, 0.0), 0.22, 0.16),
+        Cone("bone", (-0.8, 0.0, 0.0), (-1.0, 0.45, 0.1), 0.2, 0.17),
+        Cone("bone", (0.0, 0.0, 0.0), (0.25, 0.1, 0.5), 0.14, 0.1),
+        Ellipsoid("bone", (0.8, -0.15, -0.1), (0.3, 0.2, 0.15)),
+        Cone("bone", (-0.4, 0.0, 0.0), (-0.35, -0.4, 0.15), 0.12, 0.08),
+    ),
+    blend_width=0.05,
+    skin_width=0.05,
+)
+"""Three axes that can be told apart, both ways: a left one and a right one."""
+
+
+@functools.cache
+def bone(seed: int, n_vertices: int = 900) -> Figure:
+    """One of two triangulations of a bone."""
+    return figure(BONE, {}, spacing=0.04, n_vertices=n_vertices, seed=seed)
+
+
+def other_side(mesh: Mesh) -> Mesh:
+    """Its mirror image, with an outside that is outside."""
+    return Mesh(mesh.vertices * (1.0, -1.0, 1.0), mesh.faces[:, [0, 2, 1]])
+
+
+def turned(mesh: Mesh) -> Mesh:
+    """The same with its inside out."""
+    return Mesh(mesh.vertices, mesh.faces[:, [0, 2, 1]])
+
+
+def error(answer: gmds.Correspondence, positions: np.ndarray | None = None) -> float:
+    """Mean distance from where a vertex of one bone is on the other one, which may be a mirror image."""
+    points = answer.points.positions if positions is None else positions
+    return float(np.linalg.norm(points - answer.source.vertices * (1.0, -1.0, 1.0), axis=1).mean())
+
+
+def codes(answer: gmds.Correspondence) -> list[str]:
+    return [line[:4] for line in answer.meta["notes"]]
+
+
+def costs(source: Mesh, target: Mesh, images: tuple[Image, ...]) -> np.ndarray:
+    ours, theirs = measure(source), measure(target)
+    return image_costs(ours, theirs, (simplified(ours), simplified(theirs)), images)
+
+
+@pytest.mark.parametrize(("left", "right"), [(bone, other_side), (other_side, bone)])
+def test_a_right_one_on_a_left_one_is_told_and_auto_takes_it(left: object, right: object) -> None:
+    source, target = bone(0), other_side(bone(1))
+    if left is other_side:
+        source, target = other_side(bone(0)), Mesh(bone(1).vertices, bone(1).faces)
+    kept = gmds.match(source, target, n_samples=60)
+    assert kept.status is MatchStatus.POOR
+    assert "W225" in codes(kept)
+    assert error(kept, kept.candidates[0].points.positions) < 0.1 < error(kept)
+    assert kept.candidates[0].orientation < -0.9
+    taken = gmds.match(source, target, n_samples=60, orientation="auto")
+    assert taken.status is MatchStatus.GOOD
+    assert "W225" in codes(taken)
+    assert error(taken) < 0.05
+
+
+def test_a_left_one_on_a_left_one_is_not_mirrored() -> None:
+    kept = gmds.match(bone(0), bone(1), n_samples=60)
+    taken = gmds.match(bone(0), bone(1), n_samples=60, orientation="auto")
+    assert "W225" not in codes(kept) + codes(taken)
+    assert kept.status is MatchStatus.GOOD
+    np.testing.assert_array_equal(kept.points.barycentric, taken.points.barycentric)
+
+
+@pytest.mark.parametrize("pose", ["walk", "kick"])
+def test_a_symmetric_body_in_a_mirrored_pose_is_not_mirrored(pose: str) -> None:
+    person = humanoid(pose, n_vertices=900)
+    answer = gmds.match(person, other_side(humanoid(pose, n_vertices=900, seed=1)), n_samples=60)
+    assert not [code for code in codes(answer) if code in ("W225", "W226")]
+
+
+def test_how_symmetric_a_surface_is() -> None:
+    body, ours = (measure(mesh) for mesh in (quadruped(n_vertices=900), bone(0)))
+    assert own_symmetry(SurfacePair(body, body)) > 0.9
+    assert own_symmetry(SurfacePair(ours, ours)) < SYMMETRIC
+
+
+def test_the_image_that_fits_costs_least() -> None:
+    shell, _ = cut(bone(0), bone(0).vertices[:, 2] > -0.12)
+    images = (AS_IT_IS, MIRRORED, *INSIDE_OUT)
+    others = (shell, other_side(shell), turned(shell), turned(other_side(shell)))
+    for image, other in zip(images, others, strict=True):
+        found = costs(shell, other, images)
+        assert images[int(found.argmin())] == image
+        assert found.min() < 0.7 * np.sort(found)[1]
+
+
+def test_an_open_shell_with_its_inside_out_is_told_and_any_takes_it() -> None:
+    shell, _ = cut(bone(0), bone(0).vertices[:, 2] > -0.12)
+    target = turned(shell)
+    kept = gmds.match(shell, target, n_samples=60)
+    assert kept.status is MatchStatus.POOR
+    assert "W226" in codes(kept)
+    for orientation in ("any", "auto"):
+        taken = gmds.match(shell, target, n_samples=60, orientation=orientation)
+        assert taken.status is not MatchStatus.POOR
+        np.testing.assert_allclose(taken.points.positions, shell.vertices, atol=1e-3)
+        assert "W226" in codes(taken)
