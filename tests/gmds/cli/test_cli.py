@@ -287,6 +287,13 @@ def test_repair_drops_what_is_wrong_and_says_where_the_rest_was(tmp_path: Path) 
     assert maps["new_vertex"].tolist() == [-1, 0, 1, 2, 3] and maps["new_face"].tolist() == [0, -1, 1]
 
 
+def test_repair_turns_faces_when_that_is_asked_for(tmp_path: Path) -> None:
+    (tmp_path / "m.off").write_text("OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n3 2 1 3\n")
+    result = run("repair", tmp_path / "m.off", "-o", tmp_path / "n.off", "--turn")
+    assert result.exit_code == 0, result.output
+    assert read_mesh(tmp_path / "n.off").faces.tolist() == [[0, 2, 1], [2, 3, 1]]
+
+
 def test_repair_reduces(tmp_path: Path) -> None:
     shape = bumpy_sphere(3)
     write_mesh(shape, tmp_path / "m.ply")

@@ -171,7 +171,7 @@ def test_the_settings_are_told() -> None:
         ({"n_sample": 20}, TypeError, "did you mean 'n_samples'"),
         ({"landmark": []}, TypeError, "did you mean 'landmarks'"),
         ({"zzz": 1}, TypeError, "there are source, target"),
-        ({"orientation": "keep"}, ValueError, "'preserve', 'reverse' or 'any', not 'keep'"),
+        ({"orientation": "keep"}, ValueError, "one of 'preserve', 'reverse', 'any', 'auto', not 'keep'"),
     ],
 )
 def test_bad_options_are_refused_by_name(options: dict, error: type[Exception], words: str) -> None:
