@@ -87,7 +87,8 @@ class Attempt:
     @property
     def neg_log_likelihood(self) -> float:
         """That of the likeliest map, whole or in part."""
-        return min(one.neg_log_likelihood for one in (*self.maps, *self.of_parts))
+        whole = [one.neg_log_likelihood for one in self.maps]
+        return min(whole + [one.neg_log_likelihood for one in self.of_parts])
 
     @property
     def unexplained(self) -> float:
