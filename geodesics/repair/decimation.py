@@ -3,7 +3,7 @@
 | function | made for | method | on a surface that it cannot reduce |
 |---|---|---|---|
 | `decimate` | users, who keep the mesh | quadric collapses, with index arrays between old and new | raises |
-| `decimated` | computations on a coarse copy | collapses of the shortest edges | None |
+| `decimated` | computations on a coarse copy | collapses of the shortest edges | `clustered`, then cleaned |
 | `clustered` | drawings of any mesh | vertices of one grid cell become one | there is none |
 | `collapse` | even triangles | collapses, then edge flips and smoothing | callers give manifolds |
 """
@@ -13,9 +13,10 @@ from __future__ import annotations
 import numpy as np
 
 from geodesics.arrays import Floats, Integers
-from geodesics.errors import NotManifold
+from geodesics.errors import NotManifold, ZeroArea
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
+from geodesics.repair.cleaning import cleaned
 from geodesics.repair.repairing import Repaired, inverse_index, repair
 from geodesics.repair.splitting import split
 from geodesics.repair.triangulation import flip_towards_delaunay
@@ -83,9 +84,10 @@ def refuse_branching(mesh: Mesh) -> None:
 
 
 def decimated(mesh: Mesh, n_faces: int) -> Mesh | None:
-    """A mesh of about `n_faces` faces, by collapsing edges; None if there are few more, or it cannot be done.
+    """A mesh of about `n_faces` faces, by collapsing edges; None if there are few more.
 
-    Where more than two faces or several fans meet, the coarse copy is cut apart first (see `split`).
+    Where more than two faces or several fans meet, the coarse copy is cut apart first (see `split`). A surface with one
+    side alone, and one whose edges resist, is clustered instead.
     """
     import igl
 
@@ -97,9 +99,21 @@ def decimated(mesh: Mesh, n_faces: int) -> Mesh | None:
         apart, vertex = split(Mesh(mesh.vertices[used], faces))
         used, faces = used[vertex], np.asarray(apart.faces)
         if not _can_be_collapsed(faces):
-            return None
+            return _clustered_and_cleaned(mesh, n_faces)
     v, f, *_ = igl.decimate(np.ascontiguousarray(mesh.vertices[used]), faces, n_faces)
-    return None if len(f) == 0 or len(f) > 2 * n_faces else Mesh(v, np.asarray(f, dtype=np.int64))
+    if len(f) == 0 or len(f) > 2 * n_faces:
+        return _clustered_and_cleaned(mesh, n_faces)
+    return Mesh(v, np.asarray(f, dtype=np.int64))
+
+
+def _clustered_and_cleaned(mesh: Mesh, n_faces: int) -> Mesh | None:
+    """The mesh by clustering, cut apart where it then is no manifold; None where that has no area."""
+    try:
+        coarse = clustered(mesh, n_faces // 2)
+    except ZeroArea:
+        return None
+    copy = cleaned(coarse)
+    return coarse if copy is None else copy.mesh
 
 
 def _can_be_collapsed(faces: Integers) -> bool:

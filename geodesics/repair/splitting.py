@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from geodesics.arrays import Bools, Floats, Integers
+from geodesics.caching import memoized
 from geodesics.mesh import Mesh
 from geodesics.topology.edges import Edges, components, corner_fans, degenerate_faces, edges
 from geodesics.topology.orientation import orientation
@@ -23,7 +24,7 @@ def split(mesh: Mesh) -> tuple[Mesh, Integers]:
     for turn in range(ROUNDS):
         now = Mesh(mesh.vertices[vertex], faces)
         table = edges(now)
-        if (table.n_faces <= 2).all() and not _several_fans(now).any():
+        if (table.n_faces <= 2).all() and not several_fans(now).any():
             return (mesh if turn == 0 else now), vertex
         if turn == ROUNDS - 1:
             faces, vertex = _stand_alone(now, table, vertex)
@@ -48,7 +49,8 @@ def _cut(mesh: Mesh, table: Edges, left: Integers, right: Integers) -> tuple[Int
     return faces, vertex
 
 
-def _several_fans(mesh: Mesh) -> Bools:
+@memoized
+def several_fans(mesh: Mesh) -> Bools:
     """Vertices (n,) that join more than one fan of faces."""
     sound = ~degenerate_faces(mesh)
     _, first = np.unique(corner_fans(mesh)[sound], return_index=True)
@@ -115,7 +117,7 @@ def _separated(mesh: Mesh, fans: Integers, vertex: Integers) -> tuple[Integers, 
 
 def _stand_alone(mesh: Mesh, table: Edges, vertex: Integers) -> tuple[Integers, Integers]:
     """Faces at what is still no manifold, each with vertices of its own."""
-    crowded = (table.n_faces[table.of_side] > 2).any(axis=1) | _several_fans(mesh)[mesh.faces].any(axis=1)
+    crowded = (table.n_faces[table.of_side] > 2).any(axis=1) | several_fans(mesh)[mesh.faces].any(axis=1)
     faces = mesh.faces.copy()
     faces[crowded] = len(vertex) + np.arange(3 * int(crowded.sum())).reshape(-1, 3)
     return faces, np.concatenate([vertex, vertex[mesh.faces[crowded].ravel()]])

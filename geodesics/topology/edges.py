@@ -74,6 +74,7 @@ def face_components(mesh: Mesh) -> Integers:
     return components(first // 3, second // 3, mesh.n_faces)
 
 
+@memoized
 def corner_fans(mesh: Mesh) -> Integers:
     """Which fan around its vertex each corner belongs to, shape (m, 3), numbered over the whole mesh.
 

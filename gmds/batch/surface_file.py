@@ -1,7 +1,8 @@
 """A measured surface on disk: everything about it that takes long to compute, readable with numpy alone.
 
 Members: `original_*`, `mesh_*`: vertices and faces of the mesh, and of its largest part turned and resized;
-`face_index`; for each view (`view0`, `view1`, `view2`) its mass, eigenvalues, eigenfunctions and cells of farthest
+`face_index`; of a mesh with faults `given_*`, of which the original is the clean copy, and `clean_*`, how they
+correspond; for each view (`view0`, `view1`, `view2`) its mass, eigenvalues, eigenfunctions and cells of farthest
 points; `curvature`; `outline_*`: vertices, faces and origin of the simplified mesh, unless it is the whole;
 `reversing`, if there is such a self-map. Numbers keep all their bits: surfaces from files are matched as the meshes
 are.
@@ -19,6 +20,7 @@ from numpy.typing import NDArray
 from geodesics import Mesh, Spectrum
 from geodesics.caching import keep
 from geodesics.io import atomic_write
+from geodesics.repair.cleaning import CleanCopy
 from geodesics.sampling import Cells
 from gmds.errors import SurfaceFileError
 from gmds.files.npz import read_npz
@@ -29,7 +31,7 @@ from gmds.spectral.sample_maps import TARGET_SAMPLES
 from gmds.surface.measured import Surface
 from gmds.surface.view import View
 
-VERSION = 2  # of the layout; a file of another is measured again
+VERSION = 3  # of the layout; a file of another is measured again
 
 Arrays = dict[str, NDArray[Any]]
 
@@ -53,6 +55,8 @@ def _arrays(surface: Surface) -> Arrays:
     found: Arrays = {"version": np.array(VERSION), "face_index": surface.face_index}
     for name, mesh in (("original", surface.original), ("mesh", surface.mesh)):
         found |= {f"{name}_vertices": mesh.vertices, f"{name}_faces": mesh.faces}
+    if surface.clean is not None:
+        found |= _clean_arrays(surface.clean)
     surface.regular.samples(GOALS)
     surface.regular.cells(CARRIERS)
     for number, view in enumerate(surface.views):
@@ -64,6 +68,20 @@ def _arrays(surface: Surface) -> Arrays:
         found |= {"outline_vertices": few.mesh.vertices, "outline_faces": few.mesh.faces, "outline_origin": few.origin}
     turned = reversing(surface)
     return found if turned is None else found | {"reversing": turned}
+
+
+def _clean_arrays(clean: CleanCopy) -> Arrays:
+    given = {"given_vertices": clean.given.vertices, "given_faces": clean.given.faces}
+    changes = np.array(clean.changes, dtype=np.str_)
+    return {**given, "clean_vertex": clean.vertex, "clean_face": clean.face, "clean_changes": changes}
+
+
+def _clean(arrays: Arrays, mesh: Mesh) -> CleanCopy | None:
+    if "given_vertices" not in arrays:
+        return None
+    given = Mesh(arrays["given_vertices"], arrays["given_faces"])
+    changes = tuple(str(one) for one in arrays["clean_changes"])
+    return CleanCopy(given, mesh, arrays["clean_vertex"], arrays["clean_face"], changes)
 
 
 def _view_arrays(name: str, view: View) -> Arrays:
@@ -78,7 +96,7 @@ def _surface(arrays: Arrays) -> Surface:
     if arrays["version"] != VERSION:
         raise ValueError(f"version {arrays['version']}, not {VERSION}")
     original, mesh = (Mesh(arrays[f"{name}_vertices"], arrays[f"{name}_faces"]) for name in ("original", "mesh"))
-    surface = Surface(original, mesh, arrays["face_index"])
+    surface = Surface(original, mesh, arrays["face_index"], clean=_clean(arrays, original))
     views = tuple(_view(arrays, f"view{i}", mesh) for i in range(sum(f"view{i}_mass" in arrays for i in range(9))))
     vars(surface)["views"], vars(surface)["regular"] = views, views[-1]
     vars(surface)["squashed_curvature"] = arrays["curvature"]

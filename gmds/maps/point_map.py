@@ -23,6 +23,7 @@ class MatchStatus(Enum):
     """
 
     GOOD = "The map preserves distances well and no other map does nearly as well."
+    INCOMPLETE = "What was matched is matched well, but a body of one mesh has no partner in the other; see the notes."
     AMBIGUOUS = "Another map, for instance the mirrored one, does nearly as well; see `candidates`."
     UNRATED = "Nobody has rated this map; see `distortion`."
     POOR = "Distances are badly preserved; the two surfaces may not be the same kind of thing."

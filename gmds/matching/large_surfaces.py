@@ -18,7 +18,7 @@ from gmds.landmarks.constraints import LandmarkConstraints, WeightedCorners
 from gmds.maps.point_map import Candidate
 from gmds.registration.deformable import DeformableMesh
 from gmds.spectral.orientation import orientation_score
-from gmds.surface.measured import Surface, measure, on_original
+from gmds.surface.measured import Surface, measured_as_it_is, on_original
 
 # Vertices of the copy, and those up to which a surface is matched as it is: whole SHREC'20 animals take 13 CPU seconds
 # as copies instead of 31 (benchmarks/results/notes.md, "Speed of a match").
@@ -32,7 +32,7 @@ def copied(surface: Surface, n_vertices: int) -> Surface:
     The mesh it was measured from, its `original`, lies where that of the surface does.
     """
     mesh = decimated(surface.mesh, 2 * n_vertices)
-    return surface if mesh is None else measure(mesh)
+    return surface if mesh is None else measured_as_it_is(mesh)
 
 
 @memoized

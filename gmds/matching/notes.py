@@ -8,6 +8,9 @@
 | W226 | with its faces turned, or as a mirror image with faces turned, the target is far likelier: its inside is out |
 | W301 | landmarks that were given off the surface were moved to it, and how far |
 | W302 | soft landmarks that the map misses by far |
+| W303 | a mesh has faults and was matched as a clean copy: what was welded, dropped and taken apart |
+| W304 | small parts of a mesh hang together with nothing: their vertices go along with the nearest and are not valid |
+| W305 | a body of one mesh has no partner in the other; the status is INCOMPLETE unless it is worse |
 """
 
 from __future__ import annotations

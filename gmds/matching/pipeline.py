@@ -15,11 +15,14 @@ from gmds.correspondence import Correspondence
 from gmds.errors import SampleCountError
 from gmds.landmarks.checking import place_landmarks
 from gmds.matching.attempts import ASKED, Orientation, Wanted, attempted, likelier_image, with_candidate
+from gmds.matching.bodies import bodies_of
 from gmds.matching.candidates import mirrored
+from gmds.matching.clean_copies import cleaning_notes, on_clean, on_given
 from gmds.matching.large_surfaces import CoarseCopies
 from gmds.matching.notes import image_notes, match_notes
 from gmds.matching.part_answers import PARTS, Parts, likelier_part
 from gmds.matching.result import correspondence_of
+from gmds.matching.several_bodies import match_bodies
 from gmds.matching.steps import embedded, registered
 from gmds.mds.losses import LeastSquares, Loss
 from gmds.provenance import method_in_words
@@ -120,13 +123,17 @@ def match(  # noqa: PLR0913, PLR0915 - the signature is a promise
         raise ValueError(f"parts={parts!r} is looked for without a distance of your own; leave one of them out")
     measured, facing = (s if isinstance(s, Surface) else measure(Mesh.from_object(s)) for s in (source, target))
     loss = LeastSquares() if loss is None else loss
-    placed = None if landmarks is None else place_landmarks(landmarks, measured.original, facing.original)
-    constraints = None if placed is None else placed.constraints.within(measured.mesh.faces, facing.mesh.faces)
+    placed = None if landmarks is None else place_landmarks(landmarks, measured.given, facing.given)
     count = SAMPLES if n_samples is None else check_sample_count(n_samples, measured.original)
     report = progress or (lambda stage, fraction: None)
     started = time.perf_counter()
 
     report("measuring", 0.0)
+    whole, bodies = (measured, facing), (bodies_of(measured), bodies_of(facing))
+    if max(map(len, bodies)) > 1:
+        options = {"distance": distance, "loss": loss, "orientation": orientation, "parts": parts, "rng": rng}
+        return match_bodies(match, bodies, whole, placed, n_samples, options, report)
+    constraints = None if placed is None else on_clean(placed.constraints, measured, facing)
     copies = None if distance is not None else CoarseCopies.of(measured, facing)
     if copies is not None:
         constraints = None if constraints is None else copies.landmarks(constraints)
@@ -157,10 +164,11 @@ def match(  # noqa: PLR0913, PLR0915 - the signature is a promise
         answer = correspondence_of([*candidates, *mirrored(candidates[0])], {"parameters": settings})
     if other is not None and orientation == "preserve":
         answer = with_candidate(answer, other, wanted)
-    answer = answer if copies is None else copies.prolonged(answer)
+    answer = on_given(answer if copies is None else copies.prolonged(answer), *whole)
     of_a_part = "part" in answer.meta
     notes = match_notes(measured.original, facing.original, answer.status, of_a_part=of_a_part)
     notes += [] if other is None else image_notes(other.image, taken=orientation != "preserve")
+    notes += cleaning_notes(*whole)
     if placed is not None:
         answer, missed = placed.applied(answer)
         notes += [*placed.notes, *missed]

@@ -10,6 +10,7 @@ from geodesics import Mesh
 from geodesics.threads import on_one_blas_thread
 from gmds.correspondence import Correspondence
 from gmds.maps.point_map import MatchStatus
+from gmds.matching.clean_copies import on_given
 from gmds.matching.large_surfaces import WORKING, CoarseCopies, copied
 from gmds.matching.result import correspondence_of
 from gmds.matching.self_maps import SelfMap, likely, self_maps
@@ -83,7 +84,8 @@ def self_symmetry(
     status = MatchStatus.GOOD if good else MatchStatus.POOR
     answers = [_correspondence(m, settings, status) for m in good or maps[:1]]
     copies = CoarseCopies(surface, surface, (copy, copy))
-    return answers if copy is surface else [copies.prolonged(one) for one in answers]
+    whole = answers if copy is surface else [copies.prolonged(one) for one in answers]
+    return [on_given(one, surface, surface) for one in whole]
 
 
 def _correspondence(one: SelfMap, settings: dict[str, object], status: MatchStatus) -> Correspondence:

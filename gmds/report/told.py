@@ -15,6 +15,7 @@ from gmds.report.tables import Rows
 
 VERDICTS = {
     MatchStatus.GOOD: ("good", "Trustworthy"),
+    MatchStatus.INCOMPLETE: ("fair", "Bodies left out"),
     MatchStatus.AMBIGUOUS: ("fair", "Two answers"),
     MatchStatus.UNRATED: ("plain", "Not rated"),
     MatchStatus.POOR: ("poor", "Doubtful"),
@@ -22,6 +23,8 @@ VERDICTS = {
 NEXT = {
     MatchStatus.GOOD: "Check a few places that you know (tips of limbs, eyes, joints): point at them and see where "
     "their partner lights up.",
+    MatchStatus.INCOMPLETE: "See in the notes which body has no partner: where it should have one, give both "
+    "meshes the same bodies.",
     MatchStatus.AMBIGUOUS: "Compare the best map with the candidates (the list above the surfaces): of maps that do "
     "about as well, often one has left and right exchanged. Two or three landmarks settle which is right.",
     MatchStatus.UNRATED: "Nothing is known of how good this map is. Check it where you know the answer.",

@@ -13,6 +13,7 @@ from geodesics.arrays import Floats, Integers
 from geodesics.caching import cached_property
 from geodesics.curvature import mean_curvature
 from geodesics.intrinsic import areas, squared_lengths
+from geodesics.repair.cleaning import CleanCopy, cleaned
 from geodesics.smoothing import DETAIL
 from geodesics.smoothing import LARGE_FEATURES as SMOOTHING
 from geodesics.topology.components import component_areas, largest_component
@@ -37,13 +38,20 @@ class Surface:
     """The largest part of a mesh, with all vertices kept, brought to unit area and oriented.
 
     `mesh` has the vertices of `original`, moved and scaled, and the faces `face_index` of it, the largest first; all of
-    them `turned` inside out where that is meant.
+    them `turned` inside out where that is meant. Where the mesh that was given has faults, `original` is its `clean`
+    copy.
     """
 
     original: Mesh
     mesh: Mesh
     face_index: Integers
     turned: bool = False
+    clean: CleanCopy | None = None
+
+    @property
+    def given(self) -> Mesh:
+        """The mesh that was measured, as it was given."""
+        return self.original if self.clean is None else self.clean.given
 
     def view(self, metric: Callable[[Mesh], Metric]) -> View:
         """The surface in a metric in which rough maps are made."""
@@ -90,7 +98,7 @@ class Surface:
     @cached_property
     def reflection(self) -> Surface:
         """The mirror image of the surface."""
-        return measure(self.original, reflected=True)
+        return measured_as_it_is(self.original, reflected=True)
 
     @cached_property
     def inside_out(self) -> Surface:
@@ -111,7 +119,8 @@ def measure(mesh: Mesh, *, reflected: bool = False) -> Surface:
     Parameters
     ----------
     mesh : Mesh
-        Any surface; parts that do not hang together with the largest are left out.
+        Any surface; parts that do not hang together with the largest are left out. One that has seams along which
+        vertices are doubled, or is no manifold, is measured as a clean copy (see `geodesics.repair.cleaning`).
     reflected : bool
         Whether its mirror image is meant.
 
@@ -129,21 +138,37 @@ def measure(mesh: Mesh, *, reflected: bool = False) -> Surface:
     --------
     match : Measures what it is given.
     """
+    clean = cleaned(mesh)
+    if clean is None:
+        return measured_as_it_is(mesh, reflected=reflected)
+    return replace(measured_as_it_is(clean.mesh, reflected=reflected), clean=clean)
+
+
+def measured_as_it_is(mesh: Mesh, *, reflected: bool = False) -> Surface:
+    """The largest part of a mesh that is clean, or is to be measured with its faults; as `measure` otherwise."""
     area = areas(squared_lengths(mesh.vertices, mesh.faces))
     kept = np.flatnonzero(largest_component(mesh))
     kept = kept[np.argsort(-area[kept], kind="stable")]  # the order of the faces in the file is to have no say
     used = np.unique(mesh.faces[kept])
     places = len(used) if len(used) < FEWEST_VERTICES else len(np.unique(mesh.vertices[used], axis=0))
     if places < FEWEST_VERTICES:
-        doubled = mesh.n_vertices - len(np.unique(mesh.vertices, axis=0))
-        hint = f"join {doubled} vertices at equal positions: gmds repair --weld" if doubled else "refine the mesh"
-        what = f"{len(used)} vertices" if places == len(used) else f"{len(used)} vertices in {places} places"
-        raise TooFewVertices(f"the largest part of {mesh!r} has {what}; matching needs {FEWEST_VERTICES}; {hint}")
+        raise TooFewVertices(_too_few(mesh, len(used), places))
     shift = mesh.vertices[used].mean(axis=0)
     place, faces = (mesh.vertices - shift) / np.sqrt(component_areas(mesh).max()), mesh.faces[kept]
     if reflected:
         place, faces = place * (-1.0, 1.0, 1.0), faces[:, [0, 2, 1]]  # what faced outward still does
     return Surface(mesh, orient_faces(Mesh(place, faces)), kept)
+
+
+def _too_few(mesh: Mesh, count: int, places: int) -> str:
+    """Why a mesh cannot be matched, and what to do."""
+    doubled = mesh.n_vertices - len(np.unique(mesh.vertices, axis=0))
+    what = f"{count} vertices" if places == count else f"{count} vertices in {places} places"
+    hint = f"join {doubled} vertices at equal positions: gmds repair --weld" if doubled else "refine the mesh"
+    parts = len(component_areas(mesh))
+    if parts > 1 and not doubled:
+        hint = f"it falls into {parts} parts that share no vertices: weld it in the program that wrote it, or refine it"
+    return f"the largest part of {mesh!r} has {what}; matching needs {FEWEST_VERTICES}; {hint}"
 
 
 def view_of(distance: object, surface: Surface) -> View:

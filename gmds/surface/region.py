@@ -9,7 +9,7 @@ import numpy as np
 from geodesics import Mesh, SurfacePoints
 from geodesics.arrays import Bools, Integers
 from geodesics.caching import cached_property
-from gmds.surface.measured import Surface, measure, turned_back
+from gmds.surface.measured import Surface, measured_as_it_is, turned_back
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,7 +28,7 @@ class Region:
         """The faces of which all corners are among the `vertices` (n,). Raises `MeshError` (E104, E113)."""
         faces = whole.face_index[vertices[whole.mesh.faces].all(axis=1)]
         part = Mesh(whole.original.vertices, whole.original.faces[faces])
-        measured = measure(part, reflected=whole.reflected)
+        measured = measured_as_it_is(part, reflected=whole.reflected)
         return cls(whole, measured.inside_out if whole.turned else measured, faces)
 
     def on_measured(self, points: SurfacePoints) -> SurfacePoints:

@@ -1,0 +1,90 @@
+"""A match of meshes of several bodies: each with its partner, as `match` does it, and what is told of the rest."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from geodesics import SurfacePoints
+from geodesics.arrays import Integers
+from geodesics.errors import Note
+from geodesics.repair.repairing import inverse_index
+from gmds.correspondence import Correspondence
+from gmds.landmarks.placed import PlacedLandmarks
+from gmds.landmarks.soft import SoftLandmarks
+from gmds.maps.point_map import MatchStatus
+from gmds.matching.bodies import Body, matched_bodies
+from gmds.matching.clean_copies import cleaning_notes, on_given
+from gmds.surface.measured import Surface
+
+Report = Callable[[str, float], None]
+
+
+def match_bodies(
+    match: Callable[..., Correspondence],
+    bodies: tuple[Sequence[Body], Sequence[Body]],
+    whole: tuple[Surface, Surface],
+    placed: PlacedLandmarks | None,
+    n_samples: int | None,
+    options: dict[str, Any],
+    report: Report,
+) -> Correspondence:
+    """The map of all bodies that have a partner, between the meshes that were given (see `matched_bodies`)."""
+    started = time.perf_counter()
+
+    def each(ours: Body, theirs: Body) -> Correspondence:
+        count = None if n_samples is None else min(n_samples, len(ours.vertices))
+        landmarks = None if placed is None else _landmarks(placed, (ours, theirs), whole)
+        pair = ours.surface, theirs.surface
+        return match(*pair, n_samples=count, landmarks=landmarks, progress=report, **options)
+
+    answer, alone, without = matched_bodies(*bodies, whole, each)
+    answer = on_given(answer, *whole)
+    notes = [*cleaning_notes(*whole), *_left_out(bodies[0], alone, "source"), *_left_out(bodies[1], without, "target")]
+    if placed is not None:
+        answer, missed = placed.applied(answer)
+        notes += [*placed.notes, *missed]
+    status = answer.status
+    if (alone or without) and status.rank < MatchStatus.INCOMPLETE.rank:
+        status = MatchStatus.INCOMPLETE
+    told = [*answer.meta.get("notes", ()), *map(str, notes)]
+    meta = {**answer.meta, "notes": told, "seconds": round(time.perf_counter() - started, 3)}
+    return replace(answer, status=status, meta=meta)
+
+
+def _left_out(bodies: Sequence[Body], alone: Sequence[int], name: str) -> list[Note]:
+    """The note on bodies without a partner."""
+    if not alone:
+        return []
+    share = sum(bodies[i].area for i in alone) / sum(one.area for one in bodies)
+    first = tuple(int(bodies[i].vertices[0]) for i in alone)
+    rows = "its vertices are not valid" if name == "source" else "nothing is sent there"
+    message = (
+        f"{len(alone)} of {len(bodies)} bodies of the {name} ({share:.0%} of their area, at vertices "
+        f"{', '.join(map(str, first))}) have no partner in the other mesh: {rows}"
+    )
+    return [Note("W305", "warning", message, first, len(alone))]
+
+
+def _landmarks(placed: PlacedLandmarks, pair: tuple[Body, Body], whole: tuple[Surface, Surface]) -> Any:
+    """The landmarks that lie on both bodies, in a form that `match` takes; None where none does."""
+    sides = placed.on_source, placed.on_target
+    rows = [_faces(*one) for one in zip(sides, pair, whole, strict=True)]
+    both = np.flatnonzero((rows[0] >= 0) & (rows[1] >= 0))
+    if not len(both):
+        return None
+    halves = [
+        SurfacePoints(body.surface.original, row[both], side.barycentric[both])
+        for side, body, row in zip(sides, pair, rows, strict=True)
+    ]
+    return SoftLandmarks((halves[0], halves[1]), placed.tolerance[both])
+
+
+def _faces(points: SurfacePoints, body: Body, whole: Surface) -> Integers:
+    """The faces of a body on which points of the mesh that was given lie; -1 for others."""
+    given = body.faces if whole.clean is None else whole.clean.face[body.faces]
+    return inverse_index(given, whole.given.n_faces)[points.face]

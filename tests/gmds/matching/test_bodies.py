@@ -1,0 +1,72 @@
+"""Meshes of several bodies: each goes with its partner, and what has none is told."""
+
+from __future__ import annotations
+
+import numpy as np
+from matched_shapes import bumpy
+
+import gmds
+from geodesics import Mesh
+from gmds.maps.point_map import MatchStatus
+from gmds.matching.bodies import bodies_of
+from gmds.shapes import quadruped
+from gmds.surface.measured import measure
+
+SAMPLES = 50
+SHIFT = np.array([0.3, 0.2, 4.0])
+
+
+def joined(*meshes: Mesh) -> Mesh:
+    """All of them in one mesh."""
+    first = np.cumsum([0, *(mesh.n_vertices for mesh in meshes)])
+    faces = [mesh.faces + start for mesh, start in zip(meshes, first[:-1], strict=True)]
+    return Mesh(np.vstack([mesh.vertices for mesh in meshes]), np.vstack(faces))
+
+
+def moved(mesh: Mesh, shift: object, size: float = 1.0) -> Mesh:
+    return Mesh(size * mesh.vertices + shift, mesh.faces)
+
+
+def turned(mesh: Mesh) -> Mesh:
+    """Turned about an oblique axis, and ten times as large."""
+    rotation = np.linalg.qr(np.random.default_rng(7).standard_normal((3, 3)))[0]
+    return Mesh(10 * mesh.vertices @ (rotation * np.sign(np.linalg.det(rotation))).T + 5, mesh.faces)
+
+
+def test_two_alike_go_each_to_its_own_by_how_they_lie() -> None:
+    mesh = joined(bumpy(), moved(bumpy(), SHIFT))
+    n = bumpy().n_vertices
+    swapped = np.r_[n : 2 * n, :n]  # the other one first
+    target = turned(Mesh(mesh.vertices[swapped], np.argsort(swapped)[mesh.faces]))
+    answer = gmds.match(mesh, target, n_samples=SAMPLES)
+    assert answer.valid.all() and answer.status is MatchStatus.GOOD
+    assert np.array_equal(answer.vertex_map(), np.argsort(swapped))
+    assert answer.meta["bodies"] == 2
+
+
+def test_a_body_without_a_partner_is_told_and_not_good() -> None:
+    animal = quadruped(n_vertices=600)
+    both = joined(moved(bumpy(), SHIFT, 0.5), animal)
+    n = bumpy().n_vertices
+    answer = gmds.match(both, animal, n_samples=SAMPLES)
+    assert answer.status is MatchStatus.INCOMPLETE
+    assert not answer.valid[:n].any() and answer.valid[n:].all()
+    assert np.array_equal(answer.vertex_map()[n:], np.arange(animal.n_vertices))
+    assert any(note.startswith("W305: 1 of 2 bodies of the source") for note in answer.meta["notes"])
+    back = gmds.match(animal, both, n_samples=SAMPLES)
+    assert back.status is MatchStatus.INCOMPLETE and np.array_equal(back.vertex_map(), n + np.arange(len(back.points)))
+    assert any("bodies of the target" in note for note in back.meta["notes"])
+
+
+def test_landmarks_hold_on_the_body_they_lie_on() -> None:
+    mesh = joined(bumpy(), moved(bumpy(), SHIFT, 0.8))
+    n = bumpy().n_vertices
+    pairs = [[5, 5], [n + 7, n + 7]]
+    answer = gmds.match(mesh, turned(mesh), n_samples=SAMPLES, landmarks=pairs)
+    assert answer.vertex_map()[[5, n + 7]].tolist() == [5, n + 7]
+    assert len(answer.meta["parameters"]["landmarks"]["tolerance"]) == 2
+
+
+def test_one_body_is_the_surface_itself() -> None:
+    surface = measure(bumpy())
+    assert [one.surface for one in bodies_of(surface)] == [surface]
