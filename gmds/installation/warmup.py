@@ -28,8 +28,11 @@ def warm_up(progress: Callable[[str, float], None] | None = None) -> Warmth:
     """Compile all kernels by a tiny match and a few geodesic distances; once they are kept, this takes seconds."""
     from geodesics import GeodesicDistance, SurfacePoints, eigenpairs, farthest_point_sampling, scale_invariant
     from geodesics.compiling import cache_folder, reporting_compilation
+    from gmds.matching.pair import simplified
     from gmds.matching.pipeline import match
+    from gmds.parts.alignments import Judged, alignments
     from gmds.shapes import quadruped
+    from gmds.surface.measured import measure
 
     started = time.perf_counter()
     compiled = 0
@@ -46,4 +49,6 @@ def warm_up(progress: Callable[[str, float], None] | None = None) -> Warmth:
         eigenpairs(scale_invariant(quadruped(n_vertices=SPARSE)), 10)
         match(source, target, distance=lambda mesh: GeodesicDistance(scale_invariant(mesh)), n_samples=12)
         match(source, target, progress=progress)
+        ours, theirs = (Judged(surface, simplified(surface)) for surface in map(measure, (source, target)))
+        alignments(ours, theirs, (0.9, 1.1), 1)
     return Warmth(compiled, time.perf_counter() - started, cache_folder())

@@ -136,7 +136,7 @@ def test_brains_as_nibabel_writes_them(tmp_path: Path, encoding: str) -> None:
 def test_without_nibabel_the_extra_is_named(tmp_path: Path, content: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "nibabel", None)
     (tmp_path / "a").write_bytes(content)
-    with pytest.raises(MissingExtra, match=r"E602.*gmds\[neuro\]"):
+    with pytest.raises(MissingExtra, match=r"E602.*'nibabel.*the extra 'neuro'"):
         read_mesh(tmp_path / "a")
 
 

@@ -77,9 +77,8 @@ def test_what_is_done_is_kept(
         time.sleep(0.5)  # the workers notice
     else:
         assert child.returncode == 130, errors
-        assert (
-            seconds < 10 and errors.strip() == "gmds: interrupted" and output == ""
-        )  # 1 second when nothing else runs
+        assert seconds < 10  # 1 when nothing else runs
+        assert errors.splitlines()[-1] == "gmds: interrupted" and output == ""  # after what the log says every 10 s
         assert "missing" in (tmp_path / "summary.csv").read_text()
     kept = batches.tree(tmp_path)
     assert all(undisturbed[name] == kept[name] for name in kept if name.startswith(("pairs", "shapes")))

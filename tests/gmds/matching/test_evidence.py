@@ -59,7 +59,7 @@ def test_where_there_is_a_boundary_the_outline_decides() -> None:
     opened = replace(FAIR, closed=False)
     assert replace(opened, whole=worse).neg_log_likelihood == opened.neg_log_likelihood
     assert replace(opened, simplified=worse).neg_log_likelihood > opened.neg_log_likelihood + 0.3
-    mine, half = measure(bumpy()), measure(Mesh(bumpy().vertices, bumpy().faces[:200]))
+    mine, half = measure(bumpy()), measure(Mesh(bumpy().vertices, bumpy().faces[1:]))
     assert weighed(mine, np.arange(bumpy().n_vertices)).closed
     assert not weighed(half, np.arange(bumpy().n_vertices)).closed
 
