@@ -77,7 +77,7 @@ def read_with_notes(path: str | os.PathLike[str]) -> tuple[Mesh, list[Note]]:
     mesh : Mesh
         In the unit of the file.
     notes : list of Note
-        Split polygons (W210), welded corners (W211).
+        W210 and above: split polygons, welded corners, what the file has more or otherwise than it should.
 
     Raises
     ------

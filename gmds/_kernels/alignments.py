@@ -10,6 +10,9 @@ from geodesics.arrays import Bools, Floats
 from gmds._kernels.rotations import nearest_rotations
 
 Cells = NDArray[np.int32]
+# What is known of a surface: points, normals and areas that it is judged by; cells of a box around it, their corner and
+# step; vertices, normals, and which of them are at the boundary.
+Side = tuple[Floats, Floats, Floats, Cells, Floats, float, Floats, Floats, Bools]
 
 
 @inlined
@@ -21,39 +24,55 @@ def _vertex_near(point: Floats, cells: Cells, low: Floats, step: float) -> int:
     return cells[a, b, c]
 
 
+@inlined
+def _place(point: Floats, rotation: Floats, size: float, shift: Floats, place: Floats) -> None:
+    """Where a similarity sends a point, into `place`."""
+    for k in range(3):
+        place[k] = point[0] * rotation[k, 0] + point[1] * rotation[k, 1] + point[2] * rotation[k, 2]
+        place[k] = size * place[k] + shift[k]
+
+
+@inlined
+def _agreement(normal: Floats, rotation: Floats, direction: Floats) -> float:
+    """The cosine of the angle between a rotated normal and another."""
+    along = 0.0
+    for k in range(3):
+        turned = normal[0] * rotation[k, 0] + normal[1] * rotation[k, 1] + normal[2] * rotation[k, 2]
+        along += turned * direction[k]
+    return along
+
+
+@inlined
+def _squared_gap(place: Floats, other: Floats) -> float:
+    """The square of the distance of two places."""
+    gap = 0.0
+    for k in range(3):
+        gap += (place[k] - other[k]) ** 2
+    return gap
+
+
+@inlined
+def _shift_back(inverse: Floats, size: float, shift: Floats, back: Floats) -> None:
+    """The shift of the inverse of a similarity, of which `inverse` is the rotation, into `back`."""
+    for k in range(3):
+        back[k] = -(inverse[k, 0] * shift[0] + inverse[k, 1] * shift[1] + inverse[k, 2] * shift[2]) / size
+
+
 @njit
 def _cost(
-    points: Floats,
-    normals: Floats,
-    weights: Floats,
-    rotation: Floats,
-    size: float,
-    shift: Floats,
-    cells: Cells,
-    low: Floats,
-    step: float,
-    places: Floats,
-    directions: Floats,
-    edge: Bools,
-    reach: float,
-    turn: float,
-    missing: float,
+    one: Side, other: Side, rotation: Floats, size: float, shift: Floats, reach: float, turn: float, missing: float
 ) -> float:
+    points, normals, weights = one[0], one[1], one[2]
+    cells, low, step, places, directions, edge = other[3], other[4], other[5], other[6], other[7], other[8]
     total = 0.0
-    y, m = np.empty(3), np.empty(3)
+    y = np.empty(3)
     for i in range(len(points)):
-        for k in range(3):
-            m[k] = normals[i, 0] * rotation[k, 0] + normals[i, 1] * rotation[k, 1] + normals[i, 2] * rotation[k, 2]
-            y[k] = points[i, 0] * rotation[k, 0] + points[i, 1] * rotation[k, 1] + points[i, 2] * rotation[k, 2]
-            y[k] = size * y[k] + shift[k]
+        _place(points[i], rotation, size, shift, y)
         near = _vertex_near(y, cells, low, step)
         if edge[near]:
             total += weights[i] * missing
             continue
-        gap, along = 0.0, 0.0
-        for k in range(3):
-            gap += (y[k] - places[near, k]) ** 2
-            along += m[k] * directions[near, k]
+        gap, along = _squared_gap(y, places[near]), _agreement(normals[i], rotation, directions[near])
         total += weights[i] * min(gap / reach**2 + turn * (1 - along), 1.0)
     return total
 
@@ -63,8 +82,8 @@ def alignment_costs(
     rotations: Floats,
     sizes: Floats,
     shifts: Floats,
-    source: tuple[Floats, Floats, Floats, Cells, Floats, float, Floats, Floats, Bools],
-    target: tuple[Floats, Floats, Floats, Cells, Floats, float, Floats, Floats, Bools],
+    source: Side,
+    target: Side,
     reach: float,
     turn: float,
     missing: float,
@@ -76,63 +95,33 @@ def alignment_costs(
     """
     costs = np.empty(len(rotations))
     back = np.empty(3)
-    xs, ns, ws, cells_s, low_s, step_s, places_s, directions_s, edge_s = source
-    xt, nt, wt, cells_t, low_t, step_t, places_t, directions_t, edge_t = target
     for j in range(len(rotations)):
         size, inverse = sizes[j], np.ascontiguousarray(rotations[j].T)
-        for k in range(3):
-            back[k] = (
-                -(inverse[k, 0] * shifts[j, 0] + inverse[k, 1] * shifts[j, 1] + inverse[k, 2] * shifts[j, 2]) / size
-            )
-        there = _cost(
-            xs, ns, ws, rotations[j], size, shifts[j],
-            cells_t, low_t, step_t, places_t, directions_t, edge_t, reach, turn, missing,
-        )  # fmt: skip
-        returned = _cost(
-            xt, nt, wt, inverse, 1 / size, back,
-            cells_s, low_s, step_s, places_s, directions_s, edge_s, reach / size, turn, missing,
-        )  # fmt: skip
+        _shift_back(inverse, size, shifts[j], back)
+        there = _cost(source, target, rotations[j], size, shifts[j], reach, turn, missing)
+        returned = _cost(target, source, inverse, 1 / size, back, reach / size, turn, missing)
         costs[j] = (size**2 * there + returned) / (size**2 + 1)
     return costs
 
 
 @njit
 def _gather(
-    points: Floats,
-    normals: Floats,
-    weights: Floats,
-    rotation: Floats,
-    size: float,
-    shift: Floats,
-    cells: Cells,
-    low: Floats,
-    step: float,
-    places: Floats,
-    directions: Floats,
-    edge: Bools,
-    reach: float,
-    found: Floats,
-    first: int,
+    one: Side, other: Side, rotation: Floats, size: float, shift: Floats, reach: float, found: Floats, first: int
 ) -> int:
     """Rows (point, its closest one, weight) from `first` on of what lies within reach and faces the same way."""
+    points, normals, weights = one[0], one[1], one[2]
+    cells, low, step, places, directions, edge = other[3], other[4], other[5], other[6], other[7], other[8]
     y = np.empty(3)
     for i in range(len(points)):
-        for k in range(3):
-            y[k] = points[i, 0] * rotation[k, 0] + points[i, 1] * rotation[k, 1] + points[i, 2] * rotation[k, 2]
-            y[k] = size * y[k] + shift[k]
+        _place(points[i], rotation, size, shift, y)
         near = _vertex_near(y, cells, low, step)
         if edge[near]:
             continue
-        gap, along = 0.0, 0.0
-        for k in range(3):
-            m = normals[i, 0] * rotation[k, 0] + normals[i, 1] * rotation[k, 1] + normals[i, 2] * rotation[k, 2]
-            along += m * directions[near, k]
-            gap += (y[k] - places[near, k]) ** 2
-        weight = weights[i] * (1 - gap / reach**2) * along
+        gap, along = _squared_gap(y, places[near]), _agreement(normals[i], rotation, directions[near])
         if gap < reach**2 and along > 0:
             for k in range(3):
                 found[first, k], found[first, 3 + k] = points[i, k], places[near, k]
-            found[first, 6] = weight
+            found[first, 6] = weights[i] * (1 - gap / reach**2) * along
             first += 1
     return first
 
@@ -142,8 +131,8 @@ def refined_alignments(
     rotations: Floats,
     sizes: Floats,
     shifts: Floats,
-    source: tuple[Floats, Floats, Floats, Cells, Floats, float, Floats, Floats, Bools],
-    target: tuple[Floats, Floats, Floats, Cells, Floats, float, Floats, Floats, Bools],
+    source: Side,
+    target: Side,
     reach: float,
     steps: int,
     least: float,
@@ -154,26 +143,16 @@ def refined_alignments(
     Each step takes the similarity of least weighted squares between the pairs of points (Horn 1987), with a size from
     `least` to `most`.
     """
-    xs, ns, ws, cells_s, low_s, step_s, places_s, directions_s, edge_s = source
-    xt, nt, wt, cells_t, low_t, step_t, places_t, directions_t, edge_t = target
-    ours, theirs = np.empty((len(xs) + len(xt), 7)), np.empty((len(xt), 7))
+    n, m = len(source[0]), len(target[0])
+    ours, theirs = np.empty((n + m, 7)), np.empty((m, 7))
     product, back = np.empty((1, 3, 3)), np.empty(3)
     a, b = np.empty(3), np.empty(3)
     for j in range(len(rotations)):
         for _ in range(steps):
             size, inverse = sizes[j], np.ascontiguousarray(rotations[j].T)
-            for k in range(3):
-                back[k] = (
-                    -(inverse[k, 0] * shifts[j, 0] + inverse[k, 1] * shifts[j, 1] + inverse[k, 2] * shifts[j, 2]) / size
-                )
-            count = _gather(
-                xs, ns, ws, rotations[j], size, shifts[j],
-                cells_t, low_t, step_t, places_t, directions_t, edge_t, reach, ours, 0,
-            )  # fmt: skip
-            more = _gather(
-                xt, nt, wt, inverse, 1 / size, back,
-                cells_s, low_s, step_s, places_s, directions_s, edge_s, reach / size, theirs, 0,
-            )  # fmt: skip
+            _shift_back(inverse, size, shifts[j], back)
+            count = _gather(source, target, rotations[j], size, shifts[j], reach, ours, 0)
+            more = _gather(target, source, inverse, 1 / size, back, reach / size, theirs, 0)
             for i in range(more):
                 ours[count, :3], ours[count, 3:6], ours[count, 6] = theirs[i, 3:6], theirs[i, :3], theirs[i, 6]
                 count += 1
@@ -195,8 +174,8 @@ def refined_alignments(
                 for k in range(3):
                     x = ours[i, k] - a[k]
                     spread += ours[i, 6] * x * x
-                    for m in range(3):
-                        product[0, k, m] += ours[i, 6] * x * (ours[i, 3 + m] - b[m])
+                    for c in range(3):
+                        product[0, k, c] += ours[i, 6] * x * (ours[i, 3 + c] - b[c])
             turned, sums = nearest_rotations(product)
             if spread <= 0:
                 break

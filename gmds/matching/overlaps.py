@@ -15,23 +15,22 @@ from gmds.matching.pair import SurfacePair, full
 from gmds.matching.parts import PartCandidate, likely_candidates, matched_in, near_image
 from gmds.matching.polishing import polished
 from gmds.mds.losses import Loss
-from gmds.parts.overlaps import APART, RECIPROCAL, curvature_neg_log_likelihood, overlap_maps
+from gmds.parts.overlaps import curvature_neg_log_likelihood, overlap_maps
+from gmds.parts.search import APART, IN_PLACE
 from gmds.registration.distinct import distinct
-from gmds.registration.energies import AsRigidAsPossible
 from gmds.registration.register import Registered, settled
-from gmds.registration.settings import RegistrationSettings, Stage
+from gmds.registration.settings import Stage
 from gmds.surface.measured import Surface
 from gmds.surface.region import Region
 
+# Set by hand, on parts of SHREC'20 animals (benchmarks/results/notes.md, "Parts").
 FINALISTS = 8  # rough maps, the likeliest, for which all of both surfaces is laid on each other
 MATCHED = 3  # of them, those whose regions are matched
 MARGIN = 1.5  # spacings of vertices of the target around the image that belong to the region
 GAP = 0.05  # root areas off the target, beyond which a vertex has no counterpart
 REGION_TIME = 2e-4  # heat time, in units of the area: a region is as wide as heat spreads, as in `gmds.matching.result`
 
-ALL_FACES = RegistrationSettings(
-    (Stage(3e-3, 4), Stage(1e-3, 4)), AsRigidAsPossible, partial=True, reciprocal=RECIPROCAL
-)
+ALL_FACES = IN_PLACE.with_stages((Stage(3e-3, 4), Stage(1e-3, 4)))
 """Of both surfaces with all their faces, where each may lack what the other has."""
 
 

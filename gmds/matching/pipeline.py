@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -25,6 +25,7 @@ from gmds.matching.result import correspondence_of
 from gmds.matching.several_bodies import match_bodies
 from gmds.matching.steps import embedded, registered
 from gmds.mds.losses import LeastSquares, Loss
+from gmds.parts.handedness import Image
 from gmds.provenance import method_in_words
 from gmds.suggestions import suggest_keywords
 from gmds.surface.measured import Surface, measure
@@ -36,7 +37,7 @@ SAMPLES = 300  # of each surface, placed by the solver: with as many it was meas
 
 @suggest_keywords
 @on_one_blas_thread
-def match(  # noqa: PLR0913, PLR0915 - the signature is a promise
+def match(  # noqa: PLR0913 - the signature is a promise
     source: Mesh | Surface,
     target: Mesh | Surface,
     *,
@@ -138,16 +139,8 @@ def match(  # noqa: PLR0913, PLR0915 - the signature is a promise
     if copies is not None:
         constraints = None if constraints is None else copies.landmarks(constraints)
         measured, facing = copies.copies
-    wanted = Wanted(
-        constraints, distance, loss, count, parts, report, distance is None and (landmarks is None or parts != "auto")
-    )
-    tried = attempted(measured, facing, orientation, wanted)
-    other = likelier_image(tried, orientation, wanted)
-    if other is not None and orientation != "preserve":
-        tried = [other]
-    of_parts = [one for attempt in tried for one in attempt.of_parts]
-    part = likelier_part(of_parts, [one for attempt in tried for one in attempt.maps], parts)
-
+    looked_for = distance is None and (landmarks is None or parts != "auto")
+    wanted = Wanted(constraints, distance, loss, count, parts, report, looked_for)
     settings = {
         "n_samples": min(count, len(measured.regular.usable)),
         **method_in_words(distance, loss),
@@ -155,19 +148,11 @@ def match(  # noqa: PLR0913, PLR0915 - the signature is a promise
         "parts": parts,
         "rng": rng,
     }
-    if part is not None:
-        answer = part.correspondence({"parameters": settings})
-    else:
-        candidates = [one for way in tried for one in embedded(way.pair, way.maps, loss, count, way.given, report)]
-        candidates.sort(key=lambda candidate: candidate.evidence.neg_log_likelihood)
-        candidates = registered(candidates, report) if distance is None else candidates
-        answer = correspondence_of([*candidates, *mirrored(candidates[0])], {"parameters": settings})
-    if other is not None and orientation == "preserve":
-        answer = with_candidate(answer, other, wanted)
+    answer, image = _answered(measured, facing, orientation, wanted, {"parameters": settings})
     answer = on_given(answer if copies is None else copies.prolonged(answer), *whole)
     of_a_part = "part" in answer.meta
     notes = match_notes(measured.original, facing.original, answer.status, of_a_part=of_a_part)
-    notes += [] if other is None else image_notes(other.image, taken=orientation != "preserve")
+    notes += [] if image is None else image_notes(image, taken=orientation != "preserve")
     notes += cleaning_notes(*whole)
     if placed is not None:
         answer, missed = placed.applied(answer)
@@ -175,6 +160,29 @@ def match(  # noqa: PLR0913, PLR0915 - the signature is a promise
     report("done", 1.0)
     seconds = round(time.perf_counter() - started, 3)
     return replace(answer, meta={**answer.meta, "notes": [str(note) for note in notes], "seconds": seconds})
+
+
+def _answered(
+    source: Surface, target: Surface, orientation: Orientation, wanted: Wanted, meta: Mapping[str, Any]
+) -> tuple[Correspondence, Image | None]:
+    """The likeliest map, of a whole or a part, and an image of the target, not asked for, that fits far better."""
+    tried = attempted(source, target, orientation, wanted)
+    other = likelier_image(tried, orientation, wanted)
+    if other is not None and orientation != "preserve":
+        tried = [other]
+    of_parts = [one for attempt in tried for one in attempt.of_parts]
+    part = likelier_part(of_parts, [one for attempt in tried for one in attempt.maps], wanted.parts)
+    if part is not None:
+        answer = part.correspondence(meta)
+    else:
+        how = wanted.loss, wanted.count
+        candidates = [one for way in tried for one in embedded(way.pair, way.maps, *how, way.given, wanted.report)]
+        candidates.sort(key=lambda candidate: candidate.evidence.neg_log_likelihood)
+        candidates = registered(candidates, wanted.report) if wanted.distance is None else candidates
+        answer = correspondence_of([*candidates, *mirrored(candidates[0])], meta)
+    if other is not None and orientation == "preserve":
+        answer = with_candidate(answer, other, wanted)
+    return answer, None if other is None else other.image
 
 
 def check_sample_count(count: Any, mesh: Mesh) -> int:

@@ -16,6 +16,8 @@ from gmds.parts.extremities import near_boundary
 from gmds.registration.deformable import DeformableMesh
 from gmds.surface.measured import Surface
 
+# Set by hand, but for `REFINED`, `MISSING` and `TURN`, of which others were tried on parts of SHREC'20 animals and were
+# no better (benchmarks/results/notes.md, "Parts").
 FRAMES = 120  # points of each surface, at most, whose frames are laid on each other
 FRAME_RADIUS = 0.12  # root areas around a point over which the direction of its frame is averaged
 SAME_SIDE = 0.2  # cosine of normals there, below which a point lies on another sheet
@@ -43,6 +45,11 @@ class Similarities:
 
     def __len__(self) -> int:
         return len(self.sizes)
+
+    @property
+    def arrays(self) -> tuple[Floats, Floats, Floats]:
+        """Rotations, sizes and shifts, as the kernels take them."""
+        return self.rotations, self.sizes, self.shifts
 
     def __getitem__(self, rows: Integers) -> Similarities:
         return Similarities(self.rotations[rows], self.sizes[rows], self.shifts[rows])
@@ -157,10 +164,10 @@ def alignments(source: Judged, target: Judged, sizes: tuple[float, float], count
     begun = laid_on(framed(source, FRAMES), framed(target, FRAMES), sizes)
     if len(begun) == 0:  # no point lies far enough from the boundary to have a frame
         return begun
-    costs = alignment_costs(*_parts(begun), source.arrays, target.arrays, REACH, TURN, MISSING)
+    costs = alignment_costs(*begun.arrays, source.arrays, target.arrays, REACH, TURN, MISSING)
     best = begun[np.argsort(costs, kind="stable")[:REFINED]]
-    refined_alignments(*_parts(best), source.arrays, target.arrays, CLOSEST_REACH, STEPS, *sizes)
-    costs = alignment_costs(*_parts(best), source.arrays, target.arrays, FINE_REACH, TURN, MISSING)
+    refined_alignments(*best.arrays, source.arrays, target.arrays, CLOSEST_REACH, STEPS, *sizes)
+    costs = alignment_costs(*best.arrays, source.arrays, target.arrays, FINE_REACH, TURN, MISSING)
     order = np.argsort(costs, kind="stable")
     places = best.moved(source.arrays[0]).reshape(len(best), -1) / np.sqrt(len(source.arrays[0]))
     kept: list[int] = []
@@ -170,10 +177,6 @@ def alignments(source: Judged, target: Judged, sizes: tuple[float, float], count
         if not kept or np.sqrt(((places[kept] - places[one]) ** 2).sum(axis=1)).min() > APART:
             kept.append(int(one))
     return best[np.array(kept, dtype=np.int64)]
-
-
-def _parts(some: Similarities) -> tuple[Floats, Floats, Floats]:
-    return some.rotations, some.sizes, some.shifts
 
 
 def laid_on(source: Framed, target: Framed, sizes: tuple[float, float]) -> Similarities:

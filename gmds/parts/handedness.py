@@ -87,11 +87,10 @@ def _cost(
     """The least cost over similarities of an image of the source and the target."""
     here, ours = _framed_image(here, image), _arrays_image(ours, image)
     begun = laid_on(here, there, sizes)
-    costs = alignment_costs(begun.rotations, begun.sizes, begun.shifts, ours, theirs, REACH, TURN, MISSING)
+    costs = alignment_costs(*begun.arrays, ours, theirs, REACH, TURN, MISSING)
     best = begun[np.argsort(costs, kind="stable")[:REFINED]]
-    placed = best.rotations, best.sizes, best.shifts
-    refined_alignments(*placed, ours, theirs, CLOSEST_REACH, STEPS, *sizes)
-    return float(alignment_costs(*placed, ours, theirs, REACH, TURN, MISSING).min())
+    refined_alignments(*best.arrays, ours, theirs, CLOSEST_REACH, STEPS, *sizes)
+    return float(alignment_costs(*best.arrays, ours, theirs, REACH, TURN, MISSING).min())
 
 
 def _framed_image(one: Framed, image: Image) -> Framed:

@@ -9,26 +9,17 @@ import numpy as np
 
 from geodesics.threads import side_by_side
 from gmds.parts.alignments import Judged, alignments
+from gmds.parts.search import APART, IN_PLACE, ONTO_WHOLE
 from gmds.registration.deformable import DeformableMesh
 from gmds.registration.distinct import distinct
-from gmds.registration.energies import AsRigidAsPossible
 from gmds.registration.register import Registered, register, returning, settled
 from gmds.registration.residuals import Residuals
-from gmds.registration.settings import COARSE, TO_IMAGES, RegistrationSettings, Stage
 from gmds.surface.measured import Surface
 
+# Chosen on parts of SHREC'20 animals (benchmarks/results/notes.md, "Parts"), but for the sizes: set by hand.
 ALIGNED = 100  # alignments that are deformed
 SIZES = (0.6, 1.7)  # of the source on the target, both of unit area: the larger one has three times the area
 RETURNED = 40  # of these, those whose curvature fits best, that are deformed the way back as well
-APART = 0.06  # root mean square distance in root areas between two maps that are two
-RECIPROCAL = 0.08  # as in `gmds.parts.search`
-
-IN_PLACE = RegistrationSettings(
-    (Stage(1e-2, 6), Stage(3e-3, 6)), AsRigidAsPossible, partial=True, reciprocal=RECIPROCAL
-)
-"""Of simplified surfaces that lie nearly as they should."""
-BACK = IN_PLACE.with_stages((*TO_IMAGES, *COARSE))
-"""The way back of these."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +59,6 @@ def overlap_maps(
 
     def returned(one: OverlapMap) -> OverlapMap:
         images = returning(ours, theirs, one.registered.y)
-        return OverlapMap(one.registered, register(theirs, ours, images, BACK))
+        return OverlapMap(one.registered, register(theirs, ours, images, ONTO_WHOLE))
 
     return distinct(side_by_side(returned, likely), ours.areas, APART)

@@ -33,11 +33,11 @@ RECIPROCAL = 0.08  # root areas between a point of the whole and the image of wh
 # part has nothing there
 BELIEF_TIME = 3e-3  # heat time, in units of the area of the part, over which strain is averaged
 
-ALIGNED = 40  # alignments that are deformed
-SIZES = (0.3, 1.0)  # of a part of unit area on a whole of unit area
+ALIGNED = 40  # alignments that are deformed; set by hand
+SIZES = (0.3, 1.0)  # of a part of unit area on a whole of unit area: a bound, a tenth of the area and all of it
 
 ONTO_WHOLE = RegistrationSettings((*TO_IMAGES, *COARSE), AsRigidAsPossible, partial=True, reciprocal=RECIPROCAL)
-"""Of a simplified part onto a simplified whole: what the part does not reach does not pull."""
+"""Of a simplified part onto a simplified whole: what either lacks does not pull."""
 IN_PLACE = ONTO_WHOLE.with_stages((Stage(1e-2, 6), Stage(3e-3, 6)))
 """From where it nearly fits."""
 
