@@ -118,11 +118,8 @@ class Judged:
         places = self.mesh.mesh.vertices[self.mesh.usable]
         low, high = places.min(axis=0) - MARGIN, places.max(axis=0) + MARGIN
         step = float((high - low).max() / self.grid)
-        axes = [
-            start + step * np.arange(int(np.ceil((end - start) / step)) + 1)
-            for start, end in zip(low, high, strict=True)
-        ]
-        box = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
+        counts = np.ceil((high - low) / step).astype(np.int64) + 1
+        box = low + step * np.moveaxis(np.indices(counts), 0, -1)
         near = cKDTree(places).query(box.reshape(-1, 3))[1]
         return low, step, self.mesh.usable[near].reshape(box.shape[:3]).astype(np.int32)
 
