@@ -28,7 +28,7 @@ import numpy as np
 from geodesics.arrays import Bools
 from geodesics.defects import flat_faces, repeated_faces, unreferenced_vertices
 from geodesics.errors import Note
-from geodesics.io.precision import BEARABLE, granularity, median_edge, offset
+from geodesics.io.precision import precision_notes
 from geodesics.mesh import Mesh
 from geodesics.one_ring import one_ring_areas, one_ring_curvature
 from geodesics.topology.components import boundary_vertices, vertex_components
@@ -118,24 +118,6 @@ def _vertices(mesh: Mesh) -> Iterable[Note]:
     yield from _warn("W209", distance > 20 * np.median(distance), "{} vertices are far away from all others")
 
 
-def _precision(mesh: Mesh) -> Iterable[Note]:
-    length = median_edge(mesh)
-    if not length:
-        return
-    step = float(np.spacing(np.abs(mesh.vertices).max()))
-    if step > 1e-6 * length:
-        message = (
-            f"the coordinates are only exact to {step:.1e}, edges are {length:.1e} long; move the mesh to the origin"
-        )
-        yield Note("W208", "warning", message)
-    elif offset(mesh) is not None and (step := granularity(mesh)) > BEARABLE * length:
-        message = (
-            f"the coordinates were rounded to {step:.1e} where the mesh lies, far from the origin, and edges are "
-            f"{length:.1e} long: save it again around the origin, or in double precision, before it was rounded"
-        )
-        yield Note("W208", "warning", message)
-
-
 def _topology(mesh: Mesh) -> Iterable[Note]:
     topology = invariants(mesh)
     if topology.components > 1:
@@ -166,7 +148,7 @@ _CHECKS: list[Callable[[Mesh], Iterable[Note]]] = [
     _orientation,
     _manifold,
     _vertices,
-    _precision,
+    precision_notes,
     _topology,
     _curvature,
 ]

@@ -41,6 +41,7 @@ from gmds.batch.pair_list import read_list
 from gmds.batch.surface_file import read_surface
 from gmds.benchmarking.datasets import dataset_pairs
 from gmds.benchmarking.truth_files import read_truth_npz, read_vts
+from gmds.characters.scene import read_scene
 from gmds.cli.settings import TABLES, read_settings
 from gmds.correspondence import Correspondence
 from gmds.files.values import read_values
@@ -107,6 +108,10 @@ def _look(path: Path) -> Any:
     return read_look(path, read_mesh(path))
 
 
+def _scene(path: Path) -> Any:
+    return read_scene(path, read_mesh(path), rig=True)
+
+
 def _texture(path: Path) -> Any:
     mesh = path.with_name("uv.obj")
     return read_look(mesh, read_mesh(mesh), path)
@@ -118,9 +123,15 @@ def _pairs(path: Path) -> Any:
 
 _FACES = F_TEXT.replace("3 ", "", 1)
 MESHES: Mapping[str, Target] = {
-    "OFF": Target(read_mesh, "a.off", lambda: [OFF.encode(), *of_cases("colours.off", "comments.off")()], _mesh_holds),
-    "OBJ": Target(read_mesh, "a.obj", lambda: [OBJ.encode(), *of_cases("seam.obj", "more.obj")()], _mesh_holds),
-    "PLY, text": Target(read_mesh, "a.ply", lambda: [PLY.encode(), *of_cases("elements.ply")()], _mesh_holds),
+    "OFF": Target(
+        read_mesh, "a.off", lambda: [OFF.encode(), *of_cases("colours.off", "comments.off", "edges.off")()], _mesh_holds
+    ),
+    "OBJ": Target(
+        read_mesh, "a.obj", lambda: [OBJ.encode(), *of_cases("seam.obj", "more.obj", "edges.obj")()], _mesh_holds
+    ),
+    "PLY, text": Target(
+        read_mesh, "a.ply", lambda: [PLY.encode(), *of_cases("elements.ply", "edges.ply")()], _mesh_holds
+    ),
     "PLY, binary": Target(read_mesh, "b.ply", of_text(binary_ply(extra=True), binary_ply(">")), _mesh_holds),
     "STL, text": Target(read_mesh, "a.stl", lambda: [STL.encode(), *of_cases("two.stl")()], _mesh_holds),
     "STL, binary": Target(read_mesh, "b.stl", of_text(STL_BINARY), _mesh_holds),
@@ -148,6 +159,7 @@ MESHES: Mapping[str, Target] = {
             "rawvtkZLibDataCompressor.vtp",
             "raw>u8.vtp",
             "appendedvtkLZMADataCompressor.vtp",
+            "rawvtkLZ4DataCompressor.vtp",
         ),
         _mesh_holds,
     ),
@@ -162,6 +174,7 @@ MESHES: Mapping[str, Target] = {
     "colours, .obj": Target(_look, "a.obj", of_cases("colours.obj", "texture.obj", "more.obj")),
     "colours, .ply": Target(_look, "a.ply", of_cases("seams.ply", "face_colours.ply", "comment.ply")),
     "colours, .glb": Target(_look, "a.glb", of_text(glb())),
+    "scenes, .glb": Target(_scene, "s.glb", of_cases("halves.glb", "apart.glb", "quantised.glb", "skinned.glb")),
     "texture": Target(_texture, "a.png", pictures, beside={"uv.obj": UV}),
 }
 MAPS: Mapping[str, Target] = {

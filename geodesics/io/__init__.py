@@ -7,8 +7,9 @@
 | W220 | there is more in the file than it declares, which was passed over |
 | W221 | vertices on no face that have no position, or an infinite one, were put in the middle of the others |
 | W222 | parts that the file keeps apart were joined into one mesh |
-| W223 | parts of points or lines were passed over |
+| W223 | parts of points or lines, and faces of fewer than three corners, were passed over |
 | W224 | single precision, which the format has, moves vertices |
+| W227 | an STL file of text lacks its last line, and may be cut off |
 """
 
 from __future__ import annotations

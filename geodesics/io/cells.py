@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from geodesics.arrays import Floats, Integers
-from geodesics.errors import BadCount, BadPolygon, IndexOutOfRange, UnknownFormat
+from geodesics.errors import BadCount, IndexOutOfRange, UnknownFormat
 from geodesics.io.contents import Contents
 from geodesics.io.polygons import split
 from geodesics.notes import Note
@@ -103,9 +103,6 @@ def surface(vertices: Floats, polygons: Cells, strips: Cells, path: Path, notes:
     """Polygons, then strips, as contents; every index is checked."""
     for cells in (polygons, strips):
         check_corners(cells, len(vertices), path)
-    small = np.flatnonzero(polygons[0] < 3)
-    if len(small):
-        raise BadPolygon(f"{path}: face {small[0]} has {polygons[0][small[0]]} corners; a face has at least three")
     triangles, slots, split_notes = split(*polygons, vertices)
     ribbons = triangles_of_strips(strips)
     if len(ribbons):

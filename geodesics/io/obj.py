@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from geodesics.errors import BadPolygon, IndexOutOfRange, TruncatedFile
+from geodesics.errors import IndexOutOfRange, TruncatedFile
 from geodesics.io.contents import Contents
 from geodesics.io.polygons import split
 from geodesics.io.text import Row, numbers, rows, whole
@@ -44,8 +44,6 @@ def statements(data: bytes, path: Path) -> Iterator[Row]:
 def _corners(row: Row, defined: int, n_vertices: int, path: Path) -> list[int]:
     """The corners of a face line; a negative index counts back from the vertices defined so far."""
     place = f"{path}, line {row.line}"
-    if len(row.words) < 4:
-        raise BadPolygon(f"{place}: a face of {len(row.words) - 1} corners; a face has at least three")
     face = []
     for word in row.words[1:]:
         written = whole(word.split("/", 1)[0], place)

@@ -6,19 +6,24 @@ import base64
 import binascii
 import lzma
 import zlib
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geodesics.errors import BadContainer, InflatesTooFar, TruncatedFile
+from geodesics.io.lz4 import unpacked_block
 from geodesics.io.opening import SMALL_WHEN_INFLATED
 
 LARGEST_RATIO = 1032  # what a byte of deflate can become at most, by its format
 
-_INFLATE: dict[str, Any] = {"vtkZLibDataCompressor": zlib.decompressobj, "vtkLZMADataCompressor": lzma.LZMADecompressor}
+_INFLATE: dict[str, Callable[[bytes, int], bytes]] = {
+    "vtkZLibDataCompressor": lambda block, size: zlib.decompressobj().decompress(block, size),
+    "vtkLZMADataCompressor": lambda block, size: lzma.LZMADecompressor().decompress(block, size),
+    "vtkLZ4DataCompressor": unpacked_block,
+}
 
 
 @dataclass(frozen=True)
@@ -100,8 +105,8 @@ def _inflated(source: _Source, packing: Packing, path: Path) -> bytes:
     for number, length in enumerate(packed):
         wanted = last if last and number == n - 1 else size
         try:
-            block = _INFLATE[packing.compressor]().decompress(body[at : at + length], wanted)
-        except (zlib.error, lzma.LZMAError, EOFError) as error:
+            block = _INFLATE[packing.compressor](body[at : at + length], wanted)
+        except (zlib.error, lzma.LZMAError, EOFError, ValueError) as error:
             raise TruncatedFile(f"{path}: block {number} of an array cannot be unpacked ({error})") from error
         if len(block) != wanted:
             raise TruncatedFile(f"{path}: block {number} of an array has {len(block)} bytes, {wanted} are declared")

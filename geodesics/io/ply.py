@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from geodesics.errors import BadPolygon, FormatError, IndexOutOfRange
+from geodesics.errors import FormatError, IndexOutOfRange
 from geodesics.io.cells import Cells, joined, no_cells, surface
 from geodesics.io.contents import Contents
 from geodesics.io.ply_columns import BinaryColumns, TextColumns, read_binary, read_text
@@ -70,12 +70,6 @@ def _polygons(columns: Columns | None, n_vertices: int) -> Cells:
     if columns is None or not columns.element.length:
         return no_cells()
     sizes, corners = columns.lists(columns.element.find(*_CORNERS))
-    small = np.flatnonzero(sizes < 3)
-    if len(small):
-        raise BadPolygon(
-            f"{columns.path}: faces of {np.unique(sizes[small])[:5].tolist()} corners, first {small[0]}; "
-            "a face has at least three"
-        )
     outside = np.flatnonzero((corners < 0) | (corners >= n_vertices))
     if len(outside):
         face = int(np.searchsorted(np.cumsum(sizes), outside[0], side="right"))

@@ -42,8 +42,8 @@ class TextColumns:
         for row, at in zip(self.rows, self.starts[:, place].tolist(), strict=True):
             where = f"{self.path}, line {row.line}"
             size = whole(row.words[at], where)
-            if self.element.name == "face" and size < 3:
-                raise BadPolygon(f"{where}: a face of {size} corners; a face has at least three")
+            if size < 0:
+                raise BadPolygon(f"{where}: a list of {size} entries")
             sizes.append(size)
             flat += [whole(word, where) for word in row.words[at + 1 : at + 1 + size]]
         return np.array(sizes, dtype=np.int64), np.clip(np.array(flat, dtype=object), -1, 2**62).astype(np.int64)

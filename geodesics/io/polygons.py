@@ -21,17 +21,19 @@ OVERLAP = 1e-9  # of a polygon's area that triangles may lie the wrong way round
 def split(
     sizes: Integers | Sequence[int], corners: Integers | Sequence[int], vertices: Floats
 ) -> tuple[Integers, Integers, list[Note]]:
-    """Triangles (t, 3) of polygons, their slots (t, 3) and notes (W210); polygons stay in order.
+    """Triangles (t, 3) of polygons, their slots (t, 3) and notes (W210, W223); polygons stay in order.
 
-    `sizes` (m,) says how many of the vertices in `corners` (c,) belong to each polygon, at least three. A slot is a
-    place in `corners`: `triangles == corners[slots]`. A convex polygon is split about its first corner.
+    `sizes` (m,) says how many of the vertices in `corners` (c,) belong to each polygon; those of fewer than three have
+    no triangle. A slot is a place in `corners`: `triangles == corners[slots]`. A convex polygon is split about its
+    first corner.
     """
     count, flat = np.asarray(sizes, dtype=np.int64), np.asarray(corners, dtype=np.int64)
     start = np.cumsum(count) - count
-    first = np.cumsum(count - 2) - (count - 2)  # triangle of each polygon
-    slots = np.empty((int((count - 2).sum()), 3), dtype=np.int64)
+    many = triangles_of(count)
+    first = np.cumsum(many) - many  # triangle of each polygon
+    slots = np.empty((int(many.sum()), 3), dtype=np.int64)
     clipped: list[int] = []
-    for size in np.unique(count).tolist():
+    for size in np.unique(count[count > 2]).tolist():
         members = np.flatnonzero(count == size)
         fan = np.array([(0, i, i + 1) for i in range(1, size - 1)])
         where = first[members, None] + np.arange(size - 2)
@@ -49,13 +51,22 @@ def split(
     return flat[slots].reshape(-1, 3), slots, _notes(count, len(clipped))
 
 
+def triangles_of(sizes: Integers) -> Integers:
+    """How many triangles each polygon makes."""
+    return np.asarray(np.maximum(sizes - 2, 0))
+
+
 def _notes(count: Integers, clipped: int) -> list[Note]:
-    larger = np.flatnonzero(count > 3)
-    if not len(larger):
-        return []
-    how = f", {clipped} of them not convex" if clipped else ""
-    message = f"{len(larger)} of {len(count)} faces have more than three corners{how} and were split into triangles"
-    return [Note("W210", "info", message, tuple(larger[:10].tolist()), len(larger))]
+    notes = []
+    larger, smaller = np.flatnonzero(count > 3), np.flatnonzero(count < 3)
+    if len(larger):
+        how = f", {clipped} of them not convex" if clipped else ""
+        message = f"{len(larger)} of {len(count)} faces have more than three corners{how} and were split into triangles"
+        notes.append(Note("W210", "info", message, tuple(larger[:10].tolist()), len(larger)))
+    if len(smaller):
+        message = f"{len(smaller)} of {len(count)} faces have fewer than three corners, as edges do, and were left out"
+        notes.append(Note("W223", "info", message, tuple(smaller[:10].tolist()), len(smaller)))
+    return notes
 
 
 def _overlapping(points: Floats) -> Integers:

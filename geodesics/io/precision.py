@@ -12,6 +12,7 @@ from geodesics.topology.edges import edges
 # Of the median edge, how far vertices may be moved by rounding: a thousandth turns an edge by a milliradian. Curvature
 # is smoothed over more than that; set by hand.
 BEARABLE = 1e-3
+EXACT = 1e-6  # of the median edge, how exact coordinates should be; set by hand
 MOST_DIGITS = 7  # that programs write which round: six, or the seven of single precision
 NEARLY_WHOLE = 1e-6  # steps; 1e8 of them in double precision are exact to 1e-8
 FAR = 10.0  # extents from the origin at which a mesh lies far from it: single precision has lost a digit there
@@ -58,6 +59,26 @@ def _granularity(values: Floats) -> float:
         if np.abs(steps - np.round(steps)).max() < NEARLY_WHOLE:
             return step
     return 0.0
+
+
+def precision_notes(mesh: Mesh) -> list[Note]:
+    """Whether coordinates are so far from the origin that edges have lost their precision (W208)."""
+    length = median_edge(mesh)
+    if not length:
+        return []
+    step = float(np.spacing(np.abs(mesh.vertices).max()))
+    if step > EXACT * length:
+        message = (
+            f"the coordinates are only exact to {step:.1e}, edges are {length:.1e} long; move the mesh to the origin"
+        )
+        return [Note("W208", "warning", message)]
+    if offset(mesh) is not None and (step := granularity(mesh)) > BEARABLE * length:
+        message = (
+            f"the coordinates were rounded to {step:.1e} where the mesh lies, far from the origin, and edges are "
+            f"{length:.1e} long: save it again around the origin, or in double precision, before it was rounded"
+        )
+        return [Note("W208", "warning", message)]
+    return []
 
 
 def rounding_notes(mesh: Mesh, suffix: str, *, centered: bool = True) -> list[Note]:

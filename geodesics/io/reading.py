@@ -46,7 +46,8 @@ def contents_of(path: str | os.PathLike[str]) -> Contents:
         return read_tosca(path)
     data = read_bytes(path)
     try:
-        return _READERS[sniff(data, path)](data, path)
+        with np.errstate(invalid="ignore"):  # a NaN that signals stays one in double precision, and is refused later
+            return _READERS[sniff(data, path)](data, path)
     except BadPolygon as error:
         if not error.args[0].startswith("face "):
             raise

@@ -32,11 +32,16 @@ def read_stl(data: bytes, path: Path) -> Contents:
             f"{path}: neither binary STL ({declared} triangles need {84 + 50 * declared} bytes, "
             f"the file has {len(data)}) nor ASCII STL"
         )
-    return _weld(_read_ascii(data, path), 0)
+    soup, ended = _read_ascii(data, path)
+    welded = _weld(soup, 0)
+    if not ended:
+        message = "the file does not end in endsolid: facets may be missing, if it was cut off"
+        welded.notes.append(Note("W227", "warning", message))
+    return welded
 
 
-def _read_ascii(data: bytes, path: Path) -> Floats:
-    """Corner positions (3 m, 3) of an ASCII STL file whose every facet is complete."""
+def _read_ascii(data: bytes, path: Path) -> tuple[Floats, bool]:
+    """Corner positions (3 m, 3) of an ASCII STL file whose every facet is complete, and whether its end is there."""
     vertex_rows, state, keyword = [], 0, ""
     for row in rows(data, path, comment=None):
         keyword = row.words[0].lower()
@@ -49,9 +54,9 @@ def _read_ascii(data: bytes, path: Path) -> Floats:
         if keyword == "vertex":
             vertex_rows.append(row)
         state = (state + 1) % len(_FACET)
-    if keyword != "endsolid":
-        raise TruncatedFile(f"{path}: the file does not end in endsolid")
-    return numbers(vertex_rows, 1, path, unknown=True)
+    if state:
+        raise TruncatedFile(f"{path}: the file ends within a facet, where {_FACET[state]!r} is expected")
+    return numbers(vertex_rows, 1, path, unknown=True), keyword == "endsolid"
 
 
 def _weld(soup: Floats, longer: int) -> Contents:

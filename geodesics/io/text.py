@@ -104,8 +104,8 @@ def corners(row: Row, first: int, n_vertices: int, base: int, path: Path) -> lis
     """A face line `degree i j k ...` whose degree is word `first`: its 0-based corners, all checked."""
     place = f"{path}, line {row.line}"
     degree = whole(row.words[first], place)
-    if degree < 3:
-        raise BadPolygon(f"{place}: a face of {degree} corners; a face has at least three")
+    if degree < 0:
+        raise BadPolygon(f"{place}: a face of {degree} corners")
     words = row.words[first + 1 : first + 1 + degree]
     if len(words) < degree:
         raise BadPolygon(f"{place}: a face of {row.words[first][:40]} corners, but the line holds {len(words)}")

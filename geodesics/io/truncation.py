@@ -20,13 +20,13 @@ def refuse_cut_face(
     if not polygons or data.endswith((b"\n", b"\r")):
         return
     last = polygons[-1]
-    written = last[-1] + base
+    written = last[-1] + base if last else 0
     may_lose_digits = data[-1:].isdigit() and written > 0 and 10 * written - base < n_vertices
     may_lose_corners = any_size and len(last) < max(map(len, polygons))
     if not (may_lose_digits or may_lose_corners):
         return
     shared = Counter(frozenset(edge) for p in polygons for edge in zip(p, p[1:] + p[:1], strict=True))
-    if any(shared[frozenset(edge)] != 2 for edge in zip(last, last[1:] + last[:1], strict=True)):
+    if len(last) < 3 or any(shared[frozenset(edge)] != 2 for edge in zip(last, last[1:] + last[:1], strict=True)):
         raise TruncatedFile(
             f"{path}: the file ends inside its last line, whose face does not fit its neighbours; "
             "if the file is complete, end it with a newline"

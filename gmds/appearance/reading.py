@@ -115,7 +115,8 @@ def refuse_other_faces(contents: Contents, mesh: Mesh, path: Path) -> None:
 
 def _found(data: bytes, kind: str, path: Path) -> Shown:
     try:
-        return shown(data, kind, path)
+        with np.errstate(invalid="ignore"):  # as where meshes are read
+            return shown(data, kind, path)
     except (KeyError, IndexError, TypeError, AttributeError, OverflowError, ValueError) as error:
         if hasattr(error, "code"):
             raise

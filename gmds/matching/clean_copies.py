@@ -9,6 +9,7 @@ import numpy as np
 from geodesics import SurfacePoints
 from geodesics.arrays import Integers
 from geodesics.errors import Note
+from geodesics.io.precision import precision_notes
 from geodesics.topology.components import component_areas
 from gmds.correspondence import Correspondence
 from gmds.landmarks.constraints import LandmarkConstraints, WeightedCorners
@@ -53,12 +54,13 @@ def _carried(points: SurfacePoints, row: Integers, target: Surface) -> SurfacePo
 
 
 def cleaning_notes(source: Surface, target: Surface) -> list[Note]:
-    """What was done to the meshes before they were matched (W303), and the parts that were left out (W304)."""
+    """What is wrong with meshes (W208), what was done about it (W303), and small parts that were left out (W304)."""
     notes = []
     for name, surface in (("source", source), ("target", target)):
         if surface.clean is not None:
             done = "; ".join(surface.clean.changes)
             notes.append(Note("W303", "info", f"the {name} was matched as a clean copy: {done}"))
+        notes += [replace(note, message=f"the {name}: {note.message}") for note in precision_notes(surface.given)]
         area = component_areas(surface.original)
         small = area < BODY * area.max()
         if small.any():

@@ -4,6 +4,7 @@
 |---|---|
 | W205 | the surfaces differ in topology: no continuous map takes all of one to all of the other (not said of parts) |
 | W207 | the status is AMBIGUOUS: another map, for instance the mirrored one, does nearly as well |
+| W208 | coordinates so far from the origin that edges have lost their precision |
 | W225 | the mirror image of the target is far likelier: a right bone on a left one |
 | W226 | with its faces turned, or as a mirror image with faces turned, the target is far likelier: its inside is out |
 | W301 | landmarks that were given off the surface were moved to it, and how far |

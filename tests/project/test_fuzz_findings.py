@@ -9,10 +9,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from file_cases import PLY, binary_ply
+from file_cases import PLY, PLY_HEAD, F, V, binary_ply
 from generated_shapes import icosphere
+from other_formats import vtk, vtp
 
-from geodesics import FormatError, SurfacePoints, read_mesh
+from geodesics import FormatError, Mesh, MeshError, SurfacePoints, read_mesh, write_mesh
 from gmds import Correspondence, __version__
 from gmds.appearance.reading import BadLook, read_look
 from gmds.benchmarking.datasets import UnknownDataset, dataset_pairs
@@ -122,3 +123,21 @@ def test_pairs_that_are_no_pairs(content: bytes, says: str, tmp_path: Path) -> N
 def test_pairs_without_a_group(tmp_path: Path) -> None:
     (tmp_path / "pairs.json").write_text(json.dumps([ENTRY]))
     assert [(pair.name, pair.group) for pair in dataset_pairs(tmp_path)] == [("p", "")]
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("name", ["a.stl", "a.ply", "a.vtk", "a.glb", "a.vtp"])
+def test_a_nan_that_signals_is_refused_without_a_warning(name: str, tmp_path: Path) -> None:
+    single = np.array([0x7F800001], "<u4").tobytes()
+    write_mesh(Mesh(V, F), tmp_path / name) if name[-4:] not in (".vtk", ".ply", ".vtp") else None
+    made = {
+        "a.vtk": vtk("3.0", True).replace(b"double", b"float").replace(V.astype(">f8").tobytes(), single[::-1] * 12)
+    }
+    made["a.ply"] = (
+        PLY_HEAD.replace("ascii", "binary_little_endian").encode() + single * 12 + bytes([3, *bytes(12)]) * 4
+    )
+    made["a.vtp"] = vtp("raw").replace(b"Float64", b"Float32", 1).replace(V.tobytes(), single * 24)
+    content = made.get(name) or (tmp_path / name).read_bytes().replace(V[0].astype("<f4").tobytes(), single * 3)
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises((FormatError, MeshError), match=r"E101|E204"):
+        read_mesh(tmp_path / name)

@@ -55,7 +55,7 @@ CASES: list[tuple[str, str, list[Case]]] = [
                ("colours behind positions", "colours.obj"),
                ("lines, points, curves before or between", "begins0.obj"),
                ("lines continued by a backslash", "continued.obj"),
-               ("faces of two corners", "degree.obj")),
+               ("faces of one or two corners (left out)", "edges.obj")),
         ("negative indices", "negative.obj", OBJ.replace("f 1 2 3", "f -4 -3 -2")),
     ]),
     ("PLY", ".ply", [
@@ -64,13 +64,14 @@ CASES: list[tuple[str, str, list[Case]]] = [
         *cases(("lists of varying length", "lists.ply"), ("triangle strips", "strips.ply"),
                ("other elements and properties (passed over)", "elements.ply"), ("bytes behind the data", "longer.ply"),
                ("indices that are not whole numbers", "index_float.ply"),
-               ("faces of two corners", "degree2_binary.ply")),
+               ("faces of one or two corners (left out)", "edges.ply")),
         ("cut off", "cut.ply", binary_ply()[:-3]),
     ]),
     ("STL", ".stl", [
         ("text, of one solid or several", "two.stl", NAMED["two.stl"]),
         ("binary, also when it begins with `solid`", "binary.stl", STL_BINARY),
-        *cases(("`end solid`, `end loop`", "end_solid.stl"), ("bytes behind the data", "longer.stl")),
+        *cases(("`end solid`, `end loop`", "end_solid.stl"), ("bytes behind the data", "longer.stl"),
+               ("no `endsolid`", "open.stl")),
         ("cut off", "cut.stl", STL[:-20]),
     ]),
     ("GLB", ".glb", [
@@ -88,14 +89,16 @@ CASES: list[tuple[str, str, list[Case]]] = [
     ("VTK (legacy)", ".vtk", [
         ("PolyData, text or binary, 1.0 to 4.2", "a.vtk", vtk()),
         ("PolyData, text or binary, 5.0 and 5.1", "b.vtk", vtk("5.1", True)),
-        *cases(("triangle strips; lines and vertices (passed over)", "strips.vtk")),
+        *cases(("triangle strips; lines and vertices (passed over)", "strips.vtk"),
+               ("polygons of one or two corners (left out)", "edges.vtk")),
         ("polygons of an unstructured grid", "c.vtk", vtk(grid=True)),
         ("solid cells, structured grids", "d.vtk", vtk(grid=True).replace(b"CELL_TYPES 4\n5", b"CELL_TYPES 4\n10")),
     ]),
     ("VTP, VTU", ".vtp", [
         ("arrays in text, base64 or appended, either byte order", "a.vtp", vtp()),
         *cases(("compressed by zlib or LZMA", "binaryvtkZLibDataCompressor.vtp")),
-        ("compressed by LZ4", "c.vtp", vtp().replace(b"version=", b'compressor="vtkLZ4DataCompressor" version=')),
+        *cases(("compressed by LZ4", "rawvtkLZ4DataCompressor.vtp")),
+        ("compressed by what nobody knows", "c.vtp", vtp().replace(b"version=", b'compressor="vtkOdd" version=')),
         ("XML that declares entities", "d.vtp", vtp().replace(b"<VTK", b'<!DOCTYPE a [<!ENTITY b "c">]>\n<VTK', 1)),
     ]),
     ("GIFTI (extra `neuro`)", ".gii", [

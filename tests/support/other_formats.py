@@ -64,6 +64,28 @@ def packed(table: np.ndarray, order: str, header: str, compress: Any) -> tuple[b
     return np.array([len(blocks), size, last, *map(len, blocks)], number).tobytes(), b"".join(blocks)
 
 
+def lz4_block(content: bytes) -> bytes:
+    """A block of LZ4: four letters as they are, then what repeats the eight bytes before, as far as it does."""
+    out, at, start = b"", 0, 0
+
+    def sequence(letters: bytes, match: int) -> bytes:
+        small = min(len(letters), 15) << 4 | min(max(match - 4, 0), 15)
+        more = bytes([255] * ((len(letters) - 15) // 255) + [(len(letters) - 15) % 255]) if len(letters) > 14 else b""
+        return bytes([small]) + more + letters
+
+    while at < len(content):
+        length = 0
+        while at >= 8 and at + length < len(content) and content[at + length] == content[at + length - 8]:
+            length += 1
+        if 4 <= length < 19 or (length > 18 and (length := 18)):
+            out += sequence(content[start:at], length) + struct.pack("<H", 8)
+            at += length
+            start = at
+        else:
+            at += 1
+    return out + sequence(content[start:], 0)
+
+
 def vtp(
     how: str = "binary", order: str = "<", header: str = "u4", compress: Any = None, name: str = "", pieces: int = 1
 ) -> bytes:
@@ -212,6 +234,12 @@ STRIP_HEAD = PLY_HEAD.replace("element face 4", "element tristrips 2").replace("
 CR_HEAD = PLY_HEAD.replace("ascii", "binary_little_endian").replace("\n", "\r").encode()
 SINGLE = V.astype("<f4").tobytes()
 
+COMPRESSORS = (
+    ("vtkZLibDataCompressor", zlib.compress),
+    ("vtkLZMADataCompressor", lzma.compress),
+    ("vtkLZ4DataCompressor", lz4_block),
+)
+
 OTHERS: list[tuple[str, str, str | bytes]] = [
     ("F12", "nc.off", "NCOFF\n4 4 0\n" + V_TEXT.replace("\n", " 255 0 0 255 0.1 0.2 0.3 \n") + "".join(
         f"3 {a} {b} {c} \n" for a, b, c in F.tolist())),
@@ -223,6 +251,13 @@ OTHERS: list[tuple[str, str, str | bytes]] = [
     *[("F12", f"begins{i}.obj", f"{line}\n{OBJ}") for i, line in enumerate(
         ["l 1 2", "p 1", "g", "s off", "usemap x", "cstype bezier", "end", "vp 0.3 0.4", "lod 3", "$ENDS"])],
     ("F12", "old_faces.obj", OBJ.replace("f 1", "fo 1")),
+    ("F13", "open.stl", STL.replace("endsolid thing\n", "")),
+    ("F09", "edges.off", OFF.replace("4 4 6", "4 7 6") + "2 0 1\n1 3\n0\n"),
+    ("F09", "edges.obj", OBJ.replace("f 1 3 4", "f 1 2\nf 4\nf 1 3 4") + "f 3 4\n"),
+    ("F09", "edges.ply", PLY.replace("face 4", "face 7").replace("3 0 2 3", "2 0 1\n1 3\n3 0 2 3\n0")),
+    ("F09", "edges_binary.ply", PLY_HEAD.replace("ascii", "binary_little_endian").replace("face 4", "face 6").encode()
+     + SINGLE + struct.pack("<B2iBi", 2, 0, 1, 1, 3) + b"".join(struct.pack("<B3i", 3, *face) for face in F.tolist())),
+    ("F09", "edges.vtk", vtk().replace(b"POLYGONS 4 16\n", b"POLYGONS 6 21\n2 0 1\n1 3\n")),
     ("F13", "end_solid.stl", STL.replace("endsolid", "end solid").replace("endloop", "end loop")),
     ("F13", "end_facet.stl", STL.replace("endfacet", "end facet").replace("endsolid thing", "EndSolid")),
     ("F13", "longer.stl", STL_BINARY.replace(b"solid but", b"a file of") + b"more"),
@@ -264,7 +299,7 @@ OTHERS: list[tuple[str, str, str | bytes]] = [
     *[("F20", f"{how}{order}{header}.vtp", vtp(how, order, header))
       for how in ("ascii", "binary", "appended", "raw") for order in "<>" for header in ("u4", "u8")],
     *[("F20", f"{how}{name}.vtp", vtp(how, "<", "u4", compress, name)) for how in ("binary", "appended", "raw")
-      for name, compress in (("vtkZLibDataCompressor", zlib.compress), ("vtkLZMADataCompressor", lzma.compress))],
+      for name, compress in COMPRESSORS],
     ("F21", "lh.white.asc", FREESURFER_TEXT),
 ]  # fmt: skip
 NEURO: list[tuple[str, str, str | bytes]] = [

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from broken_files import REFUSED
 from child_reader import read_in_child
-from file_cases import OBJ, OFF, PLY_HEAD, READ, STL_BINARY, V_TEXT, F, V
+from file_cases import OBJ, OFF, PLY_HEAD, READ, STL, STL_BINARY, V_TEXT, F, V
 from other_formats import NEURO, OTHERS
 
 from geodesics import FormatError, Mesh, MeshError, read_mesh, read_with_notes, write_mesh
@@ -102,6 +102,27 @@ def test_f09_polygons_are_split_about_their_first_corner_and_that_is_reported(tm
     obj = "".join(f"v {line}\n" for line in quads.split("\n")[2:7]) + "f 1 2 3 4\nf 2 5 3\n"
     (tmp_path / "a.obj").write_text(obj)
     assert np.array_equal(read_mesh(tmp_path / "a.obj").faces, mesh.faces)
+
+
+@pytest.mark.parametrize("name", ["edges.off", "edges.obj", "edges.ply", "edges_binary.ply", "edges.vtk"])
+def test_f09_faces_of_fewer_than_three_corners_are_left_out_and_that_is_told(tmp_path: Path, name: str) -> None:
+    content = next(content for _, known, content in OTHERS if known == name)
+    (tmp_path / name).write_bytes(content if isinstance(content, bytes) else content.encode())
+    mesh, notes = read_with_notes(tmp_path / name)
+    assert np.array_equal(mesh.faces, F)
+    assert [note.code for note in notes] == ["W223"] and notes[0].count == (3 if name[-4:] != ".vtk" else 2) - (
+        name == "edges_binary.ply"
+    )
+
+
+def test_f13_an_stl_file_of_text_without_its_last_line_is_read_and_doubted(tmp_path: Path) -> None:
+    (tmp_path / "open.stl").write_text(STL.replace("endsolid thing\n", ""))
+    mesh, notes = read_with_notes(tmp_path / "open.stl")
+    assert np.array_equal(mesh.faces, F)
+    assert [(note.code, note.severity) for note in notes] == [("W211", "info"), ("W227", "warning")]
+    (tmp_path / "cut.stl").write_text(STL[: STL.rindex("endloop")])
+    with pytest.raises(FormatError, match=r"E204: .*within a facet"):
+        read_mesh(tmp_path / "cut.stl")
 
 
 def test_f09_f11_polygons_of_binary_ply_keep_their_numbers(tmp_path: Path) -> None:

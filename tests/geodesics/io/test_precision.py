@@ -12,6 +12,7 @@ from generated_shapes import bumpy_sphere, icosphere, rectangle
 from geodesics import Mesh, read_mesh, write_mesh
 from geodesics.check import check
 from geodesics.io.precision import granularity
+from gmds import match
 from gmds.cli import main
 
 FAR = np.array([431_000.25, 5_412_000.5, 300.0])  # metres of a surveyor's grid
@@ -41,6 +42,14 @@ def test_few_digits_far_away(digits: int) -> None:
     assert "W208" in codes(Mesh(printed, far.faces))
     near = np.array([[float(f"{x:.{digits}g}") for x in row] for row in bumpy_sphere(3).vertices])
     assert "W208" not in codes(Mesh(near, far.faces))
+
+
+def test_matching_tells_it_too() -> None:
+    mesh = bumpy_sphere(2)
+    notes = match(moved(mesh, FAR, np.float32), mesh).meta["notes"]
+    assert [note for note in notes if "W208: the source: " in note] and not [
+        n for n in notes if "W208: the target" in n
+    ]
 
 
 def test_granularity() -> None:
