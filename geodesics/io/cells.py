@@ -108,4 +108,4 @@ def surface(vertices: Floats, polygons: Cells, strips: Cells, path: Path, notes:
     if len(ribbons):
         split_notes.append(Note("W210", "info", f"{len(strips[0])} strips were split into {len(ribbons)} triangles"))
         return Contents(vertices, np.concatenate([triangles, ribbons]), [*notes, *split_notes])
-    return Contents(vertices, triangles, [*notes, *split_notes], slots=slots)
+    return Contents(vertices, triangles, [*notes, *split_notes], slots=slots, polygons=polygons)

@@ -33,7 +33,8 @@ class Contents:
     """What a file holds: vertices (n, 3), triangles (m, 3), the notes taken on the way, and its parts, if several.
 
     `slots` (m, 3): which number of the file's own list of corners, face after face, each corner of a triangle was.
-    None where that is the triangles themselves.
+    None where that is the triangles themselves. `polygons` is that list: how many corners each face has, and all of
+    them, where there are slots.
     """
 
     vertices: Floats
@@ -41,3 +42,4 @@ class Contents:
     notes: list[Note] = field(default_factory=list)
     parts: list[Part] = field(default_factory=list)
     slots: Integers | None = None
+    polygons: tuple[Integers, Integers] | None = None

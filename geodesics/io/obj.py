@@ -6,6 +6,8 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
+
 from geodesics.errors import IndexOutOfRange, TruncatedFile
 from geodesics.io.contents import Contents
 from geodesics.io.polygons import split
@@ -32,8 +34,10 @@ def read_obj(data: bytes, path: Path) -> Contents:
     _check_declared(data, len(vertices), len(faces), path)
     if last[0] in ("f", "fo"):
         refuse_cut_face(data, faces, len(vertices), 1, path, any_size=True)
-    triangles, slots, notes = split(list(map(len, faces)), [corner for face in faces for corner in face], vertices)
-    return Contents(vertices, triangles, notes, slots=slots)
+    sizes = np.array(list(map(len, faces)), dtype=np.int64)
+    flat = np.array([corner for face in faces for corner in face], dtype=np.int64)
+    triangles, slots, notes = split(sizes, flat, vertices)
+    return Contents(vertices, triangles, notes, slots=slots, polygons=(sizes, flat))
 
 
 def statements(data: bytes, path: Path) -> Iterator[Row]:

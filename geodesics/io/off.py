@@ -6,6 +6,8 @@ import re
 from itertools import chain
 from pathlib import Path
 
+import numpy as np
+
 from geodesics.errors import BadCount, TruncatedFile, UnknownFormat
 from geodesics.io.contents import Contents
 from geodesics.io.polygons import split
@@ -53,7 +55,9 @@ def _read_body(header: Row, body: list[Row], data: bytes, path: Path) -> Content
     behind = len(body) - n_vertices - n_faces
     if behind:
         notes.append(Note("W220", "info", f"{behind} lines behind the last face were passed over"))
-    return Contents(vertices, triangles, notes, slots=slots)
+    return Contents(
+        vertices, triangles, notes, slots=slots, polygons=(np.array(sizes, np.int64), np.array(flat, np.int64))
+    )
 
 
 def _rearranged(body: list[Row], n_vertices: int, n_faces: int) -> list[Row]:

@@ -15,11 +15,21 @@ from geodesics.arrays import Floats, Integers
 _TYPES = {"f8": "Float64", "f4": "Float32", "i8": "Int64", "i4": "Int32", "u1": "UInt8", "b1": "UInt8"}
 
 
-def encode_vtp(vertices: Floats, faces: Integers, values: Mapping[str, NDArray[Any]] | None = None) -> bytes:
-    """The file of a mesh with values (n,) or (n, k) on its vertices, by name."""
-    n, m = len(vertices), len(faces)
+def encode_vtp(
+    vertices: Floats,
+    faces: Integers,
+    values: Mapping[str, NDArray[Any]] | None = None,
+    sizes: Integers | None = None,
+) -> bytes:
+    """The file of a mesh with values (n,) or (n, k) on its vertices, by name.
+
+    `faces` are triangles (m, 3), or the corners (c,) of faces that have `sizes` (m,).
+    """
+    if sizes is None:
+        sizes = np.full(len(faces), 3)
+    n, m = len(vertices), len(sizes)
     points = "".join(_array(name, np.asarray(table).reshape(n, -1)) for name, table in (values or {}).items())
-    cells = _array("connectivity", faces.reshape(-1, 1)) + _array("offsets", 3 * np.arange(1, m + 1)[:, None])
+    cells = _array("connectivity", faces.reshape(-1, 1)) + _array("offsets", np.cumsum(sizes)[:, None])
     return (
         '<?xml version="1.0"?>\n<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">'
         f'<PolyData><Piece NumberOfPoints="{n}" NumberOfPolys="{m}" NumberOfVerts="0" NumberOfLines="0" '

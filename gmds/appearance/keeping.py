@@ -7,13 +7,14 @@ from pathlib import Path
 from geodesics.io.gltf_container import Gltf, open_gltf
 from geodesics.io.obj import statements
 from geodesics.io.opening import read_bytes
+from geodesics.io.reading import contents_of
 from geodesics.io.sniffing import sniff
 
 OBJ_WORDS = {"usemtl": "materials", "o": "names of objects", "g": "groups", "s": "smoothing groups", "vn": "normals"}
 
 
-def not_kept(path: Path, *, materials: bool = False, rig: bool = False) -> list[str]:
-    """What of a glTF or OBJ file, of these kinds, is lost when its surface is written anew; nothing for others.
+def not_kept(path: Path, *, materials: bool = False, rig: bool = False, polygons: bool = False) -> list[str]:
+    """What of a file, of these kinds, is lost when its surface is written anew.
 
     Parameters
     ----------
@@ -21,6 +22,8 @@ def not_kept(path: Path, *, materials: bool = False, rig: bool = False) -> list[
         A file that was read as a mesh.
     materials, rig : bool
         What of a scene is carried: parts and materials, bones and shapes to morph to.
+    polygons : bool
+        Whether polygons are kept, or are of no concern.
 
     Returns
     -------
@@ -31,11 +34,10 @@ def not_kept(path: Path, *, materials: bool = False, rig: bool = False) -> list[
     kind = sniff(data, path) if data else ""
     if kind in ("glb", "gltf"):
         return _of_scene(open_gltf(data, path), materials, rig)
-    if kind != "obj":
-        return []
-    found = {row.words[0]: len(row.words) for row in statements(data, path)}
+    found = {row.words[0] for row in statements(data, path)} if kind == "obj" else set()
     kinds = [told for word, told in OBJ_WORDS.items() if word in found]
-    larger = any(len(row.words) > 4 for row in statements(data, path) if row.words[0] == "f")
+    contents = contents_of(path) if data and not polygons else None
+    larger = contents is not None and contents.polygons is not None and bool((contents.polygons[0] > 3).any())
     return [*kinds, *(["polygons of more than three corners (written as triangles)"] if larger else [])]
 
 

@@ -15,13 +15,16 @@ from geodesics import Mesh
 from geodesics.io import atomic_write
 from geodesics.io.precision import offset
 from geodesics.io.vtp_writing import encode_vtp
+from gmds.appearance.polygons import Polygons, as_triangles, with_coordinates
 from gmds.appearance.reading import BadLook, Look
 
 ENDINGS = (".obj", ".ply", ".glb", ".vtp")
 Values = Mapping[str, NDArray[Any]]
 
 
-def write_look(path: Path, mesh: Mesh, look: Look, values: Values | None = None) -> list[Path]:
+def write_look(
+    path: Path, mesh: Mesh, look: Look, values: Values | None = None, polygons: Polygons | None = None
+) -> list[Path]:
     """Write a mesh with its look, or with values on its vertices; each file is whole or untouched.
 
     Parameters
@@ -36,6 +39,9 @@ def write_look(path: Path, mesh: Mesh, look: Look, values: Values | None = None)
         Colours or texture.
     values : mapping from str to arrays of shape (n,) or (n, k), optional
         Numbers on vertices.
+    polygons : Polygons, optional
+        Faces that are written in place of the triangles (`polygons_of`); .glb has triangles all the same. A polygon
+        whose triangles lie on different sides of a seam is written as triangles.
 
     Returns
     -------
@@ -57,29 +63,33 @@ def write_look(path: Path, mesh: Mesh, look: Look, values: Values | None = None)
     wrong = [name for name, array in values.items() if np.asarray(array).dtype.kind not in "fiub"]
     if wrong:
         raise BadLook(f"{path}: {wrong[0]} holds words; number them to keep them in {ending}")
+    faces = as_triangles(mesh, look.uv) if polygons is None else polygons
+    if polygons is not None and look.uv is not None:
+        faces = with_coordinates(polygons, look.uv)
     if ending == ".obj":
-        files = _obj(path, mesh, look)
+        files = _obj(path, mesh, look, faces)
+    elif ending == ".glb":
+        files = {path: _glb(mesh, look)}
     else:
-        encode = {".ply": _ply, ".vtp": _vtp, ".glb": _glb}[ending]
-        files = {path: encode(mesh, look, values)}
+        files = {path: (_ply if ending == ".ply" else _vtp)(mesh, look, values, faces)}
     for name, content in files.items():
         with atomic_write(name) as stream:
             stream.write(content)
     return list(files)
 
 
-def _obj(path: Path, mesh: Mesh, look: Look) -> dict[Path, bytes]:
+def _obj(path: Path, mesh: Mesh, look: Look, polygons: Polygons) -> dict[Path, bytes]:
     rows = [" ".join(map(repr, row)) for row in mesh.vertices.tolist()]
     if look.colours is not None:  # a custom that most programs follow
         colours = np.round(look.colours[:, :3] / 255, 4).tolist()
         rows = [f"{row} {' '.join(map(repr, colour))}" for row, colour in zip(rows, colours, strict=True)]
     vertices = [f"v {row}" for row in rows]
-    if look.uv is None:
-        faces = [f"f {a} {b} {c}" for a, b, c in (mesh.faces + 1).tolist()]
-        return {path: _lines(vertices, faces)}
-    places, index = np.unique(look.uv.reshape(-1, 2), axis=0, return_inverse=True)
-    corners = np.stack([mesh.faces, index.reshape(-1, 3)], axis=2) + 1
-    faces = ["f " + " ".join(f"{v}/{t}" for v, t in row) for row in corners.tolist()]
+    corners = (polygons.corners + 1).tolist()
+    if polygons.uv is None:
+        return {path: _lines(vertices, _face_lines(polygons, list(map(str, corners))))}
+    places, index = np.unique(polygons.uv, axis=0, return_inverse=True)
+    numbered = zip(corners, (index.ravel() + 1).tolist(), strict=True)
+    faces = _face_lines(polygons, [f"{v}/{t}" for v, t in numbered])
     coordinates = ["vt " + " ".join(map(repr, row)) for row in places.tolist()]
     if look.image is None:
         return {path: _lines(vertices, coordinates, faces)}
@@ -94,6 +104,11 @@ def _obj(path: Path, mesh: Mesh, look: Look) -> dict[Path, bytes]:
     }
 
 
+def _face_lines(polygons: Polygons, corners: list[str]) -> list[str]:
+    ends = np.cumsum(polygons.sizes).tolist()
+    return ["f " + " ".join(corners[start:end]) for start, end in zip([0, *ends], ends, strict=False)]
+
+
 def _lines(*blocks: list[str]) -> bytes:
     return "".join(f"{line}\n" for block in blocks for line in block).encode("utf-8")
 
@@ -104,7 +119,7 @@ def _png(image: Any) -> bytes:
     return out.getvalue()
 
 
-def _ply(mesh: Mesh, look: Look, values: Values) -> bytes:
+def _ply(mesh: Mesh, look: Look, values: Values, polygons: Polygons) -> bytes:
     """Binary, in double precision; every column of the values is a property."""
     names = {"f8": "double", "f4": "float", "i4": "int", "u1": "uchar"}
     columns: dict[str, NDArray[Any]] = dict(zip("xyz", mesh.vertices.T, strict=True))
@@ -118,12 +133,23 @@ def _ply(mesh: Mesh, look: Look, values: Values) -> bytes:
     rows = np.empty(mesh.n_vertices, dtype=[(name, f"<{kind}") for name, kind in kinds.items()])
     for name, column in columns.items():
         rows[name] = column
-    faces = np.empty(mesh.n_faces, dtype=[("degree", "u1"), ("corners", "<i4", 3)])
-    faces["degree"], faces["corners"] = 3, mesh.faces
     properties = "".join(f"property {names[kind]} {name}\n" for name, kind in kinds.items())
     header = f"ply\nformat binary_little_endian 1.0\nelement vertex {mesh.n_vertices}\n{properties}"
-    header += f"element face {mesh.n_faces}\nproperty list uchar int vertex_indices\nend_header\n"
-    return header.encode("ascii") + rows.tobytes() + faces.tobytes()
+    wide = int(polygons.sizes.max(initial=0)) > 255
+    header += f"element face {len(polygons.sizes)}\nproperty list {'int' if wide else 'uchar'} int vertex_indices\n"
+    return f"{header}end_header\n".encode("ascii") + rows.tobytes() + _packed(polygons, "<i4" if wide else "<u1")
+
+
+def _packed(polygons: Polygons, kind: str) -> bytes:
+    """Each face as a number of this kind, how many corners it has, and its vertices."""
+    width, sizes = np.dtype(kind).itemsize, polygons.sizes
+    start = np.cumsum(width + 4 * sizes) - (width + 4 * sizes)
+    content = np.zeros(int((width + 4 * sizes).sum()), dtype=np.uint8)
+    content[start[:, None] + np.arange(width)] = sizes.astype(kind)[:, None].view(np.uint8)
+    within = np.arange(len(polygons.corners)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+    at = np.repeat(start, sizes) + width + 4 * within
+    content[at[:, None] + np.arange(4)] = polygons.corners.astype("<i4")[:, None].view(np.uint8)
+    return content.tobytes()
 
 
 def _ply_kind(column: NDArray[Any]) -> str:
@@ -135,13 +161,12 @@ def _ply_kind(column: NDArray[Any]) -> str:
     return "i4" if fits else "f8"
 
 
-def _vtp(mesh: Mesh, look: Look, values: Values) -> bytes:
-    return encode_vtp(
-        mesh.vertices, mesh.faces, dict(values) if look.colours is None else {**values, "colours": look.colours}
-    )
+def _vtp(mesh: Mesh, look: Look, values: Values, polygons: Polygons) -> bytes:
+    named = dict(values) if look.colours is None else {**values, "colours": look.colours}
+    return encode_vtp(mesh.vertices, polygons.corners, named, polygons.sizes)
 
 
-def _glb(mesh: Mesh, look: Look, _: Values) -> bytes:
+def _glb(mesh: Mesh, look: Look) -> bytes:
     """Far from the origin around the middle, with the place in the node, as `write_mesh` does."""
     import trimesh
 

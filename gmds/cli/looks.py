@@ -11,6 +11,7 @@ from gmds.cli.output import note
 
 if TYPE_CHECKING:
     from gmds import Correspondence
+    from gmds.appearance import Polygons
 
 COLOURS = "by interpolation, as colours"
 
@@ -23,11 +24,11 @@ def is_scene(file: Path) -> bool:
     return sniff(read_bytes(file), file) in ("glb", "gltf")
 
 
-def tell_what_is_lost(file: Path, *, materials: bool = False, rig: bool = False) -> None:
-    """What of a file is not carried, if it has `materials`, or `materials` and `rig`."""
+def tell_what_is_lost(file: Path, *, materials: bool = False, rig: bool = False, polygons: bool = True) -> None:
+    """What of a file is not carried, if `materials`, or `materials` and `rig`, or `polygons` are."""
     from gmds.appearance.keeping import not_kept
 
-    if lost := not_kept(file, materials=materials, rig=rig):
+    if lost := not_kept(file, materials=materials, rig=rig, polygons=polygons):
         hint = "; --rig carries bones and shapes" if materials and not rig and "bones and their weights" in lost else ""
         note(f"not carried from {file}: {', '.join(lost)}{hint}")
 
@@ -56,8 +57,10 @@ def scene_carried(answer: Correspondence, file: Path, output: Path, rig: bool, m
     return result | {"faces_on_seams": told.faces_on_seams}
 
 
-def look_carried(answer: Correspondence, file: Path, texture: Path | None, output: Path) -> dict[str, Any]:
-    """Colours or texture of a file of the target, to a mesh; what was done."""
+def look_carried(
+    answer: Correspondence, file: Path, texture: Path | None, output: Path, polygons: Polygons | None
+) -> dict[str, Any]:
+    """Colours or texture of a file of the target, to a mesh with these faces; what was done."""
     from gmds.appearance import Look, carry_uv, read_look, write_look
 
     look = read_look(file, answer.target, texture)
@@ -65,11 +68,11 @@ def look_carried(answer: Correspondence, file: Path, texture: Path | None, outpu
         note(told)
     if look.uv is not None:
         uv, across = carry_uv(answer, look.uv)
-        files = write_look(output, answer.source, Look(uv=uv, image=look.image))
+        files = write_look(output, answer.source, Look(uv=uv, image=look.image), polygons=polygons)
         if look.image is None:
             note(f"{file} has no image inside; give it with --texture")
         return {"carried": "texture", "files": [str(file) for file in files], "faces_on_seams": int(across.sum())}
     if look.colours is None:
         raise click.UsageError(f"{file} has neither colours nor texture coordinates; give --values")
-    write_look(output, answer.source, Look(colours=answer.transfer(look.colours)))
+    write_look(output, answer.source, Look(colours=answer.transfer(look.colours)), polygons=polygons)
     return {"carried": COLOURS}

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from gmds import Correspondence
+    from gmds.appearance import Polygons
 
 
 MESHES = (".obj", ".ply", ".glb", ".vtp")
@@ -79,12 +80,14 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
     From .glb to .glb parts and materials are carried with their names and images; with --rig so are the skeleton, moved
     into the source, weights (four to a vertex at most; --most) and shapes to morph to. What is not carried is told.
     --kind weights carries weights of bones from a table.
+    Polygons of the source's file stay what they were in .obj, .ply and .vtp.
     Where the texture is cut, faces whose corners go to different sides take all of it from one side, stretched up to
     the seam; their number is told.
     A .glb with a texture is cut open along its seams: weld it (`gmds repair`), match that, and give the .glb to --look.
     """
     from geodesics import read_mesh
     from gmds import Correspondence
+    from gmds.appearance import polygons_of
 
     kind = "labels" if options["labels"] else options["kind"] or "numbers"
     if options["labels"] and options["kind"] not in (None, "labels"):
@@ -94,6 +97,7 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
         raise click.UsageError(f"give --values, or an output that ends in {', '.join(MESHES)}")
     meshes = read_mesh(source), read_mesh(target)
     answer = Correspondence.load(map_file, *meshes)
+    polygons = polygons_of(source, meshes[0]) if is_mesh else None
     result = {"file": str(output), "vertices": len(answer.points)}
     look, kept = options["look"] or target, False
     if options["rig"] and (options["values"] or output.suffix.lower() != ".glb" or not is_scene(look)):
@@ -107,24 +111,25 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
         if kept:
             result |= scene_carried(answer, look, output, options["rig"], options["most"])
         else:
-            result |= look_carried(answer, look, options["texture"], output)
+            result |= look_carried(answer, look, options["texture"], output, polygons)
     else:
         if options["most"] and kind != "weights":
             raise click.UsageError("--most is for --kind weights, and for --rig")
-        result |= _carry_values(answer, options["values"], kind, output, options["picture"], options["most"])
+        result |= _carry_values(answer, kind, output, polygons, options)
     if is_mesh:
-        tell_what_is_lost(source)
+        tell_what_is_lost(source, polygons=output.suffix.lower() != ".glb")
         tell_what_is_lost(look, materials=kept, rig=kept and options["rig"])
         tell_what_is_rounded(answer, output, centered=not kept)
     emit({**result, **valid_count(answer, as_json)}, as_json)
 
 
 def _carry_values(
-    answer: Correspondence, file: Path, kind: str, output: Path, picture: Path | None, most: int | None
+    answer: Correspondence, kind: str, output: Path, polygons: Polygons | None, options: dict[str, Any]
 ) -> dict[str, Any]:
     """Values in a file, to a file; what was done."""
     from gmds.files.values import read_values
 
+    file = options["values"]
     given = read_values(file, answer.target.n_vertices, labels=kind == "labels")
     if given.dtype.kind in "bU" and kind != "labels":
         raise click.UsageError(f"{file} holds names ({given.dtype}), not numbers; give --labels to carry them")
@@ -132,7 +137,7 @@ def _carry_values(
         note("values are whole numbers and get interpolated; --labels carries them as names")
     if kind == "colours":
         given = _as_colours(given, file)
-    carried = _carried(answer, given, kind, most)
+    carried = _carried(answer, given, kind, options["most"])
     table = carried.reshape(len(carried), -1)
     result: dict[str, Any] = {"columns": table.shape[1], "carried": METHODS[kind]}
     if kind == "weights" and (unheld := int((table.sum(axis=1) == 0).sum())):
@@ -146,14 +151,14 @@ def _carry_values(
             words, number = np.unique(carried, return_inverse=True)
             carried, result["labels"] = number.reshape(carried.shape), words.tolist()
         look, values = (Look(colours=carried), {}) if kind == "colours" else (Look(), {"value": carried})
-        write_look(output, answer.source, look, values)
+        write_look(output, answer.source, look, values, polygons)
     else:
         names = ["value"] if table.shape[1] == 1 else [f"value_{i}" for i in range(table.shape[1])]
         write_field(output, {"values": carried}, dict(zip(names, table.T, strict=True)))
     labels = kind == "labels"
     shown = _shown(given.reshape(len(given), -1)[:, 0], table[:, 0], labels=labels)
     captions = "target, values given", "source, values carried"
-    draw(picture, list(zip(captions, (answer.target, answer.source), shown, strict=True)), labels=labels)
+    draw(options["picture"], list(zip(captions, (answer.target, answer.source), shown, strict=True)), labels=labels)
     return result
 
 

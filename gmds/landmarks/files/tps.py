@@ -12,6 +12,7 @@ from gmds.landmarks.files.plain import words_of
 from gmds.landmarks.files.reading import Rows, is_number, plain_number, position, whole
 
 LANDMARKS = ("LM3", "LM")
+NUMBERS = ("", "SCALE", "CURVES", "POINTS", "POINTS3", *LANDMARKS)  # keys of numbers, and coordinates themselves
 COMMENTS = ("#", '"', "'", "//")
 Line = tuple[int, str, str]  # its number, the key, the value; coordinates have an empty key
 
@@ -44,7 +45,10 @@ def _lines(text: str) -> Iterator[Line]:
         if not line or line.startswith(COMMENTS):
             continue
         key, equals, value = line.partition("=")
-        yield (number, key.strip().upper(), value.strip()) if equals else (number, "", line)
+        key, value = (key.strip().upper(), value.strip()) if equals else ("", line)
+        if key in NUMBERS:  # text may hold the mark of a comment, numbers cannot
+            value = value.partition("#")[0].strip()
+        yield number, key, value
 
 
 def _name(block: Sequence[Line]) -> str:

@@ -58,6 +58,7 @@ NAN = None
         ("a.fcsv", HEAD + "1,1,2,3,0,0,0,1,1,1,0,F,,\n2,4,5,6,0,0,0,1,1,1,0,F,,\n", ("F", "F"), [[1, 2, 3], [4, 5, 6]]),
         ("a.pts", "Version 1.0\n2\nS0 1 2 3\nS1 9999 9999 9999\n", ("S0", "S1"), [[1, 2, 3], NAN]),
         ("a.tps", "LM3=2\n1 2 3\nNA NA NA\nID=0\nSCALE=0.5\n", ("1", "2"), [[0.5, 1, 1.5], NAN]),
+        ("a.tps", "LM3=2 # two\n1 2 3 # nose\nNA NA NA\nID=a#1\n", ("1", "2"), [[1, 2, 3], NAN]),
         ("a.tps", "# by hand\nCOMMENT=left\nLM3=1\n1,5 2 3\n\nVARIABLES=a\nSCALE=2,0\n", ("1",), [[3, 4, 6]]),
         ("a.tps", "LM=1\n1 2 3\nCURVES=1\nPOINTS=1\n4 5 6\n", ("1", "2"), [[1, 2, 3], [4, 5, 6]]),
     ],
