@@ -155,6 +155,8 @@ def _files() -> Iterator[Case]:
 
     for row, name, content in file_cases.READ:
         yield Case(row, name, None, content=raw(content))
+    for row, name, content, _ in broken_files.TOLD:
+        yield Case(row, name, None, content=content.encode())
     for row, name, content, code, says in broken_files.REFUSED:
         yield Case(row, name, code, says, content=raw(content))
 

@@ -57,6 +57,8 @@ def numbers(table: Sequence[Row], first: int, path: Path, columns: int = 3, *, u
     for row in table:
         if len(row.words) < first + columns:
             raise TruncatedFile(f"{path}, line {row.line}: {columns} numbers expected, {len(row.words) - first} found")
+    if not columns:
+        return np.empty((len(table), 0))
     words = [row.words[first : first + columns] for row in table]
     if _DECIMAL.issuperset("".join(chain.from_iterable(words))):
         try:

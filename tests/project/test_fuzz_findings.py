@@ -141,3 +141,9 @@ def test_a_nan_that_signals_is_refused_without_a_warning(name: str, tmp_path: Pa
     (tmp_path / name).write_bytes(content)
     with pytest.raises((FormatError, MeshError), match=r"E101|E204"):
         read_mesh(tmp_path / name)
+
+
+def test_cells_that_are_declared_to_take_no_numbers(tmp_path: Path) -> None:
+    (tmp_path / "a.vtk").write_bytes(vtk().replace(b"POLYGONS 4 16", b"POLYGONS 4 0"))
+    with pytest.raises(FormatError, match=r"E205: .*cell 0 of 4"):
+        read_mesh(tmp_path / "a.vtk")

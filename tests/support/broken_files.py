@@ -5,7 +5,7 @@ from __future__ import annotations
 import struct
 
 import numpy as np
-from file_cases import OBJ, OFF, PLY, PLY_HEAD, STL, STL_BINARY, V, binary_ply, glb, one_view, setting
+from file_cases import OBJ, OFF, PLY, PLY_HEAD, STL, STL_BINARY, F, V, binary_ply, glb, one_view, setting
 
 
 def json_alone() -> bytes:
@@ -41,7 +41,7 @@ REFUSED: list[tuple[str, str, str | bytes, str, str]] = [
     ("F09", "degree_negative.off", OFF.replace("3 1 3 2", "-1 1 3 2"), "E206", "-1 corners"),
     ("F09", "degree.ply", PLY.replace("3 1 3 2", "1000000000 1 3 2"), "E206", "line 17"),
     ("F09", "degree_negative.ply", PLY.replace("3 1 3 2", "-3 1 3 2"), "E206", "line 17"),
-    ("F09", "edges_alone.ply", PLY_HEAD.replace("ascii", "binary_little_endian").encode() + V.astype("<f4").tobytes()
+    ("F09", "degree2_binary.ply", PLY_HEAD.replace("ascii", "binary_little_endian").encode() + V.astype("<f4").tobytes()
      + struct.pack("<B2i", 2, 0, 1) * 4, "E104", "no faces"),
     ("F09", "edges_alone.obj", OBJ.replace("f 2 4 3", "f 2 4").split("f 1", 1)[0] + "f 1 2\nf 3\n", "E104", "no faces"),
     ("F09", "degree_binary.ply", binary_ply().replace(b"\x03\0\0\0\0", b"\xff\0\0\0\0"), "E204", "promises"),
@@ -106,3 +106,10 @@ REFUSED: list[tuple[str, str, str | bytes, str, str]] = [
     ("S03", "uri.glb", glb(setting("buffers", 0, "uri", value="../../etc/passwd")), "E222", "not opened"),
     ("S01", "pickle.npy", b"\x93NUMPY\x01\x00", "E203", "supported"),
 ]  # fmt: skip
+# Not as the format has it, and read all the same: what is left out or missing is told.
+TOLD: list[tuple[str, str, str, np.ndarray]] = [
+    *[("F09", f"degree{i}.off", OFF.replace("3 1 3 2", f"{i} 1 3 2"), F[:3]) for i in range(3)],
+    ("F09", "degree2.ply", PLY.replace("3 1 3 2", "2 1 3"), F[:3]),
+    ("F09", "degree.obj", OBJ.replace("f 2 4 3", "f 2 4"), F[:3]),
+    ("F13", "open.stl", STL.replace("endsolid thing\n", ""), F),
+]

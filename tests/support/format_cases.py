@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import gzip
 
-from broken_files import REFUSED
+from broken_files import REFUSED, TOLD
 from file_cases import OBJ, OFF, PLY, READ, STL, STL_BINARY, V_TEXT, binary_ply, glb, setting
 from other_formats import FREESURFER, FREESURFER_TEXT, NEURO, OTHERS, gifti, gltf, mirrored, vtk, vtp
 
 NAMED: dict[str, str | bytes] = {name: content for _, name, content in [*READ, *OTHERS, *NEURO]}
-BROKEN: dict[str, str | bytes] = {name: content for _, name, content, *_ in REFUSED}
+BROKEN: dict[str, str | bytes] = {name: content for _, name, content, *_ in [*REFUSED, *TOLD]}
 QUADS = "OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n4 0 1 2 3\n3 1 4 2\n"
 CONCAVE = "v 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\nv 2 0 0\nv 2 1 0\nf 2 3 4 5 6 1\n"
 LOST = OFF.replace("4 4 6", "5 4 6").replace("-1 -1 1\n", "-1 -1 1\nnan nan nan\n")

@@ -251,7 +251,6 @@ OTHERS: list[tuple[str, str, str | bytes]] = [
     *[("F12", f"begins{i}.obj", f"{line}\n{OBJ}") for i, line in enumerate(
         ["l 1 2", "p 1", "g", "s off", "usemap x", "cstype bezier", "end", "vp 0.3 0.4", "lod 3", "$ENDS"])],
     ("F12", "old_faces.obj", OBJ.replace("f 1", "fo 1")),
-    ("F13", "open.stl", STL.replace("endsolid thing\n", "")),
     ("F09", "edges.off", OFF.replace("4 4 6", "4 7 6") + "2 0 1\n1 3\n0\n"),
     ("F09", "edges.obj", OBJ.replace("f 1 3 4", "f 1 2\nf 4\nf 1 3 4") + "f 3 4\n"),
     ("F09", "edges.ply", PLY.replace("face 4", "face 7").replace("3 0 2 3", "2 0 1\n1 3\n3 0 2 3\n0")),

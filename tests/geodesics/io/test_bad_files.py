@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from broken_files import REFUSED
+from broken_files import REFUSED, TOLD
 from child_reader import read_in_child
 from file_cases import OBJ, OFF, PLY_HEAD, READ, STL, STL_BINARY, V_TEXT, F, V
 from other_formats import NEURO, OTHERS
@@ -102,6 +102,14 @@ def test_f09_polygons_are_split_about_their_first_corner_and_that_is_reported(tm
     obj = "".join(f"v {line}\n" for line in quads.split("\n")[2:7]) + "f 1 2 3 4\nf 2 5 3\n"
     (tmp_path / "a.obj").write_text(obj)
     assert np.array_equal(read_mesh(tmp_path / "a.obj").faces, mesh.faces)
+
+
+@pytest.mark.parametrize(("name", "content", "faces"), [case[1:] for case in TOLD])
+def test_what_is_odd_and_can_be_read_is_told(tmp_path: Path, name: str, content: str, faces: np.ndarray) -> None:
+    (tmp_path / name).write_text(content)
+    mesh, notes = read_with_notes(tmp_path / name)
+    assert np.array_equal(mesh.vertices, V) and np.array_equal(mesh.faces, faces)
+    assert {note.code for note in notes} & {"W223", "W227"}
 
 
 @pytest.mark.parametrize("name", ["edges.off", "edges.obj", "edges.ply", "edges_binary.ply", "edges.vtk"])
