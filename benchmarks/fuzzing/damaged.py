@@ -1,4 +1,4 @@
-"""Copies that lost something: digits, vertices, a dimension. Every measurement and every match answers or says why not.
+"""Copies that lost something, as `moves.py` and `damages.py` say. Every measurement and match answers or says why not.
 
     python -m benchmarks.fuzzing.damaged --meshes 200 --pairs 20
 
@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import gmds
+from benchmarks.fuzzing.damages import DAMAGES, Faces, Points, hurt
 from benchmarks.fuzzing.metamorphic import generated
 from benchmarks.markdown import table
 from benchmarks.places import RESULTS
@@ -33,83 +34,9 @@ from geodesics.repair.repairing import repair
 
 EIGENVALUES = 12  # of each mesh; set by hand
 FINE = 3  # one mesh in so many is finer, as eigenpairs of more than 400 vertices are found in another way
-Points = NDArray[np.float64]
-Damage = Callable[[Points, NDArray[np.int64], np.random.Generator], Points]
 
 
-def quantised(steps: int) -> Damage:
-    """On a grid of so many steps along the longest side."""
-
-    def change(v: Points, _: object, __: object) -> Points:
-        step = np.ptp(v, axis=0).max() / steps
-        return np.round(v / step) * step
-
-    return change
-
-
-def single(extents: float) -> Damage:
-    """In single precision, so many extents away from the origin."""
-    return lambda v, _, __: (v + extents * np.ptp(v, axis=0).max()).astype(np.float32).astype(np.float64)
-
-
-def far(extents: float) -> Damage:
-    """In double precision, so many extents away from the origin."""
-    return lambda v, _, __: v + extents * np.ptp(v, axis=0).max()
-
-
-def pressed(factor: float, axes: int = 1) -> Damage:
-    """Flat along one axis, or a line."""
-    return lambda v, _, __: v * ((1.0,) * (3 - axes) + (factor,) * axes)
-
-
-def collapsed(share: float, apart: float = 0.0) -> Damage:
-    """A share of the vertices on a neighbour, or so far from it."""
-
-    def change(v: Points, faces: NDArray[np.int64], rng: np.random.Generator) -> Points:
-        changed = v.copy()
-        corners = faces[rng.permutation(len(faces))[: max(1, int(share * len(v)))]]
-        changed[corners[:, 0]] = v[corners[:, 1]] + apart * rng.standard_normal((len(corners), 3))
-        return changed
-
-    return change
-
-
-def gathered(share: float) -> Damage:
-    """A share of the vertices in one point."""
-
-    def change(v: Points, _: object, rng: np.random.Generator) -> Points:
-        changed = v.copy()
-        changed[rng.permutation(len(v))[: int(share * len(v))]] = v[0]
-        return changed
-
-    return change
-
-
-def spiked(length: float) -> Damage:
-    """One vertex so many times farther from the origin."""
-
-    def change(v: Points, _: object, rng: np.random.Generator) -> Points:
-        changed = v.copy()
-        changed[rng.integers(len(v))] *= length
-        return changed
-
-    return change
-
-
-DAMAGES: dict[str, Damage] = {
-    **{f"on a grid of {steps} steps": quantised(steps) for steps in (1000, 100, 30, 10, 4, 2)},
-    **{f"single precision, {d:.0e} extents away": single(d) for d in (1e3, 1e5, 1e6, 3e6, 1e7, 1e8)},
-    **{f"double precision, {d:.0e} extents away": far(d) for d in (1e8, 1e12, 1e14, 1e15)},
-    **{f"flat to {f:.0e}": pressed(f) for f in (1e-3, 1e-6, 1e-9, 1e-15, 0.0)},
-    **{f"a line to {f:.0e}": pressed(f, 2) for f in (1e-3, 1e-6, 1e-9, 1e-15)},
-    **{f"{s:.1%} on a neighbour": collapsed(s) for s in (0.005, 0.1, 0.3, 0.9)},
-    **{f"10 % a {d:.0e} from a neighbour": collapsed(0.1, d) for d in (1e-6, 1e-9, 1e-12, 1e-15)},
-    **{f"{s:.0%} in one point": gathered(s) for s in (0.1, 0.5, 0.9)},
-    **{f"a spike of {s:.0e}": spiked(s) for s in (1e3, 1e6, 1e9, 1e14)},
-}
-
-
-def measurements(vertices: Points, faces: NDArray[np.int64]) -> Iterator[Callable[[], Any]]:
+def measurements(vertices: Points, faces: Faces) -> Iterator[Callable[[], Any]]:
     """What is asked of one surface, each giving numbers."""
     made = lambda: Mesh(vertices, faces)  # noqa: E731
     for metric in metrics.ALL:
@@ -128,9 +55,9 @@ def _reached(distance: Any, mesh: Mesh) -> NDArray[np.float64]:
     return np.where(np.isposinf(field), 0.0, field)
 
 
-def matches(vertices: Points, whole: Mesh) -> Iterator[Callable[[], Any]]:
+def matches(vertices: Points, faces: Faces, whole: Mesh) -> Iterator[Callable[[], Any]]:
     """The damaged copy with what it was, either way round."""
-    copy = lambda: Mesh(vertices, whole.faces)  # noqa: E731
+    copy = lambda: Mesh(vertices, faces)  # noqa: E731
     yield lambda: _numbers(gmds.match(copy(), whole, n_samples=60))
     yield lambda: _numbers(gmds.match(whole, copy(), n_samples=60))
 
@@ -177,13 +104,11 @@ def main() -> int:
     for i in range(max(options.meshes, options.pairs)):
         mesh, whole = generated(i), shapes.bumpy_sphere(2, seed=i)
         mesh = shapes.subdivided(mesh) if i % FINE == 0 else mesh
-        for name, damage in DAMAGES.items():
+        for name in DAMAGES:
             if i < options.meshes:
-                hurt = damage(mesh.vertices, mesh.faces, np.random.default_rng(i))
-                found[name][0].update(outcome(ask) for ask in measurements(hurt, mesh.faces))
+                found[name][0].update(outcome(ask) for ask in measurements(*hurt(name, mesh, i)))
             if i < options.pairs:
-                hurt = damage(whole.vertices, whole.faces, np.random.default_rng(i))
-                found[name][1].update(outcome(ask) for ask in matches(hurt, whole))
+                found[name][1].update(outcome(ask) for ask in matches(*hurt(name, whole, i), whole))
         text = page(min(i + 1, options.meshes), min(i + 1, options.pairs), found)
         (options.output / "damaged.md").write_text(text, encoding="utf-8")
         print(i + 1, file=sys.stderr)

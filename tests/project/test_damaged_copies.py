@@ -17,18 +17,15 @@ ANSWER = re.compile(r"answered|E\d{3}")
 
 @pytest.mark.parametrize("name", damaged.DAMAGES)
 def test_what_is_measured_is_a_number_or_a_typed_error(name: str) -> None:
-    mesh = bumpy_sphere(2)
-    hurt = damaged.DAMAGES[name](mesh.vertices, mesh.faces, np.random.default_rng(0))
-    assert [
-        found for ask in damaged.measurements(hurt, mesh.faces) if not ANSWER.fullmatch(found := damaged.outcome(ask))
-    ] == []
+    hurt = damaged.hurt(name, bumpy_sphere(2), 0)
+    assert [found for ask in damaged.measurements(*hurt) if not ANSWER.fullmatch(found := damaged.outcome(ask))] == []
 
 
 @pytest.mark.parametrize("name", [name for name in damaged.DAMAGES if any(part in name for part in MATCHED)])
 def test_a_match_is_an_answer_or_a_typed_error(name: str) -> None:
     mesh = bumpy_sphere(2)
-    hurt = damaged.DAMAGES[name](mesh.vertices, mesh.faces, np.random.default_rng(0))
-    assert [found for ask in damaged.matches(hurt, mesh) if not ANSWER.fullmatch(found := damaged.outcome(ask))] == []
+    hurt = damaged.hurt(name, mesh, 0)
+    assert [found for ask in damaged.matches(*hurt, mesh) if not ANSWER.fullmatch(found := damaged.outcome(ask))] == []
 
 
 def test_raw_errors_warnings_and_no_numbers_are_seen() -> None:
