@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from geodesics._kernels.spreading import closer_rows
 from geodesics.arrays import Floats, Integers
 from geodesics.distance import FEWER_POINTS, as_points
+from geodesics.errors import BadArgument
 from geodesics.euclidean import euclidean_distances
 from geodesics.memory import table
 from geodesics.mesh import Mesh
@@ -119,7 +120,7 @@ class DiffusionDistance(_SpectralDistance):
     def __init__(self, spectrum: Spectrum, time: float) -> None:
         spectrum = as_spectrum(spectrum)
         if not time >= 0:
-            raise ValueError(f"time must be >= 0 (in units of the area of the surface), not {time}")
+            raise BadArgument(f"time must be >= 0 (in units of the area of the surface), not {time}")
         object.__setattr__(self, "time", float(time))
         fade = np.exp(-spectrum.eigenvalues * (time * spectrum.mass.sum()))
         self._set(spectrum, spectrum.eigenfunctions * fade)

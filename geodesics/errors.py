@@ -15,12 +15,7 @@ class _Coded(Exception):
 
 
 class MeshError(_Coded, ValueError):
-    """Arrays that do not describe a triangle mesh; `code` is stable across versions.
-
-    See Also
-    --------
-    FormatError : A file that cannot be read.
-    """
+    """Arrays that do not describe a triangle mesh; `code` is stable across versions."""
 
     code = "E100"
 
@@ -178,6 +173,12 @@ class WouldExceedMemory(_Coded, MemoryError):
     """A table larger than the free memory; the message says how large it is and what to do instead."""
 
     code = "E501"
+
+
+class BadArgument(_Coded, ValueError):
+    """An argument with a value that it cannot have, or two that contradict each other; the message says what can be."""
+
+    code = "E604"
 
 
 class MissingExtra(_Coded, ImportError):

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from geodesics.arrays import Bools, Floats, Integers
 from geodesics.caching import memoized
 from geodesics.distance import Distance, as_distance
+from geodesics.errors import BadArgument
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
 from geodesics.topology.components import vertex_components
@@ -79,9 +80,9 @@ def farthest_point_cells(distance: Distance, count: int, first: int | None = Non
     mesh = as_distance(distance).mesh
     eligible = _eligible(mesh).copy()
     if not 1 <= count <= eligible.sum():
-        raise ValueError(f"count must be 1 to {eligible.sum()}, not {count}")
+        raise BadArgument(f"count must be 1 to {eligible.sum()}, not {count}")
     if first is not None and not (0 <= first < mesh.n_vertices and eligible[first]):
-        raise ValueError(f"first must be a vertex on the surface, not {first}")
+        raise BadArgument(f"first must be a vertex on the surface, not {first}")
     closer, samples = _spreader(distance), np.empty(count, dtype=np.int64)
     nearest, cell = np.full(mesh.n_vertices, np.inf), np.full(mesh.n_vertices, -1, dtype=np.int64)
     samples[0] = _outermost(mesh, eligible) if first is None else first

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from geodesics.arrays import Floats
 from geodesics.distance import as_points
+from geodesics.errors import BadArgument
 from geodesics.memory import table
 from geodesics.moved_paths import names_moved
 from geodesics.points import SurfacePoints
@@ -155,7 +156,7 @@ def scale_invariant_heat_kernel_signature(
     spectrum = as_spectrum(spectrum)
     t = resolved_times(spectrum, 64) if times is None else _times(times)
     if len(t) < 3 or np.any(t <= 0) or not np.allclose(t[1:] / t[:-1], t[1] / t[0], rtol=1e-6):
-        raise ValueError("times must be at least three positive numbers that grow by a constant factor")
+        raise BadArgument("times must be at least three positive numbers that grow by a constant factor")
     used = spectrum.mass > 0
     signature = heat_kernel_signature(spectrum, t)[used]
     # d log HKS / d eta = t HKS' / HKS, in closed form: no differences
@@ -175,14 +176,14 @@ def resolved_times(spectrum: Spectrum, count: int) -> Floats:
     relative = spectrum.eigenvalues * spectrum.mass.sum()
     positive = relative[relative > 1e-6]
     if len(positive) == 0:
-        raise ValueError("the spectrum has no positive eigenvalue")
+        raise BadArgument("the spectrum has no positive eigenvalue")
     return np.geomspace(4 * np.log(10) / positive[-1], 4 * np.log(10) / positive[0], count)
 
 
 def _times(times: ArrayLike) -> Floats:
     t = np.atleast_1d(np.asarray(times, dtype=np.float64))
     if t.ndim != 1 or not np.all(t >= 0) or not np.all(np.isfinite(t)):
-        raise ValueError("times must be finite numbers >= 0, in units of the area of the surface")
+        raise BadArgument("times must be finite numbers >= 0, in units of the area of the surface")
     return t
 
 

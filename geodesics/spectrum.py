@@ -12,7 +12,7 @@ import scipy.sparse as sp
 import scipy.sparse.linalg as sla
 
 from geodesics.arrays import Bools, Floats, Integers
-from geodesics.errors import EigensolverFailed
+from geodesics.errors import BadArgument, EigensolverFailed
 from geodesics.laplacian import lumped_mass, stiffness
 from geodesics.linalg.lanczos import smallest_eigenpairs
 from geodesics.mesh import Mesh
@@ -111,7 +111,7 @@ def eigenpairs(
     stiffness, lumped_mass, galerkin_mass : The matrices A and B.
     """
     if count < 1:
-        raise ValueError(f"count must be at least 1, not {count}")
+        raise BadArgument(f"count must be at least 1, not {count}")
     metric = as_metric(metric)
     area, n = metric.mass.sum(), metric.mesh.n_vertices
     free = np.flatnonzero(metric.mass > 0 if fixed is None else (metric.mass > 0) & ~fixed)

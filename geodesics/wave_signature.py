@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from geodesics.arrays import Floats
+from geodesics.errors import BadArgument
 from geodesics.spectrum import Spectrum, as_spectrum
 
 # Range of the logarithms of eigenvalues: in a smaller one they are copies of one eigenvalue, as those of symmetric
@@ -51,7 +52,7 @@ def wave_kernel_signature(spectrum: Spectrum, n_energies: int = 100, width: floa
     spectrum = as_spectrum(spectrum)
     positive = spectrum.eigenvalues * spectrum.mass.sum() > 1e-6
     if np.count_nonzero(positive) < 2:
-        raise ValueError("the wave kernel signature needs at least two positive eigenvalues")
+        raise BadArgument("the wave kernel signature needs at least two positive eigenvalues")
     log = np.log(spectrum.eigenvalues[positive])
     sigma = width * max(log[-1] - log[0], NARROWEST) / (n_energies - 1 + 4 * width)
     energies = np.linspace(log[0] + 2 * sigma, log[-1] - 2 * sigma, n_energies)

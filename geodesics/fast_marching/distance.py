@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from geodesics._kernels import marching
 from geodesics.arrays import Floats, Integers
 from geodesics.distance import FEWER_POINTS, as_points
+from geodesics.errors import BadArgument
 from geodesics.fast_marching.front import corners, fresh_front, longest_edges
 from geodesics.fast_marching.seeds import seeds
 from geodesics.memory import table
@@ -134,7 +135,7 @@ class GeodesicDistance:
         points = as_points(self.mesh, points)
         start = np.zeros(len(points)) if values is None else np.array(values, dtype=np.float64)
         if start.shape != (len(points),) or not np.isfinite(start).all():
-            raise ValueError(f"values must be {len(points)} finite numbers, one a point")
+            raise BadArgument(f"values must be {len(points)} finite numbers, one a point")
         wanted = None if stop is None else np.asarray(stop, dtype=np.int64).reshape(-1)
         front, around, out = fresh_front(self.metric), seeds(self.metric, points), np.full(self.mesh.n_vertices, np.inf)
         for i in range(len(points)):

@@ -116,5 +116,8 @@ def _triangles(gltf: Gltf, primitive: dict[str, Any], mode: int, n: int) -> Inte
         middle = corners[1:-1]
         return np.column_stack([np.full(len(middle), corners[0] if len(corners) else 0), middle, corners[2:]])
     if len(corners) % 3:
-        raise BadContainer(f"{gltf.path}: {len(corners)} corners do not make triangles")
+        listed = "" if "indices" in primitive else " in the accessor of its positions, as it has no indices,"
+        raise BadContainer(
+            f"{gltf.path}: a mesh has {len(corners)} corners{listed} where triangles need a multiple of 3"
+        )
     return corners.reshape(-1, 3)

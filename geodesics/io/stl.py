@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from geodesics.arrays import Floats
-from geodesics.errors import TruncatedFile
+from geodesics.errors import EmptyMesh, TruncatedFile
 from geodesics.io.contents import Contents
 from geodesics.io.sniffing import is_binary_stl
 from geodesics.io.text import numbers, rows
@@ -26,14 +26,14 @@ def read_stl(data: bytes, path: Path) -> Contents:
     if is_binary_stl(data) or (not is_text and declared and longer >= 0):
         facet = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
         soup = np.frombuffer(data, facet, declared, 84)["corners"].reshape(-1, 3)
-        return _weld(soup.astype(np.float64), longer)
+        return _weld(soup.astype(np.float64), longer, path)
     if not is_text:
         raise TruncatedFile(
             f"{path}: neither binary STL ({declared} triangles need {84 + 50 * declared} bytes, "
             f"the file has {len(data)}) nor ASCII STL"
         )
     soup, ended = _read_ascii(data, path)
-    welded = _weld(soup, 0)
+    welded = _weld(soup, 0, path)
     if not ended:
         message = "the file does not end in endsolid: facets may be missing, if it was cut off"
         welded.notes.append(Note("W227", "warning", message))
@@ -59,8 +59,10 @@ def _read_ascii(data: bytes, path: Path) -> tuple[Floats, bool]:
     return numbers(vertex_rows, 1, path, unknown=True), keyword == "endsolid"
 
 
-def _weld(soup: Floats, longer: int) -> Contents:
+def _weld(soup: Floats, longer: int, path: Path) -> Contents:
     """Equal positions become one vertex, numbered by first appearance."""
+    if len(soup) == 0:
+        raise EmptyMesh(f"{path}: no vertices, as there is no facet")
     _, first, inverse = np.unique(soup, axis=0, return_index=True, return_inverse=True)
     rank = np.empty(len(first), dtype=np.int64)
     order = np.argsort(first)

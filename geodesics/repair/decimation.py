@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from geodesics.arrays import Floats, Integers
-from geodesics.errors import NotManifold, ZeroArea
+from geodesics.errors import BadArgument, NotManifold, ZeroArea
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
 from geodesics.repair.cleaning import cleaned
@@ -57,7 +57,7 @@ def decimate(mesh: Mesh, n_faces: int) -> Repaired:
     import igl
 
     if not 4 <= n_faces <= mesh.n_faces:
-        raise ValueError(f"n_faces must be from 4 to the {mesh.n_faces} of the mesh, not {n_faces}")
+        raise BadArgument(f"n_faces must be from 4 to the {mesh.n_faces} of the mesh, not {n_faces}")
     start = repair(mesh)
     refuse_branching(start.mesh)
     center, size = center_and_size(start.mesh)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geodesics.errors import MeshError
+from geodesics.errors import BadArgument, MeshError
 from geodesics.mesh import Mesh
 from geodesics.repair._meshlab import apply_filter
 from geodesics.repair.decimation import center_and_size, refuse_branching
@@ -44,7 +44,7 @@ def remesh(mesh: Mesh, target_vertices: int, *, iterations: int = 10) -> Mesh:
     decimate : Coarser without new positions for what stays, and with index arrays.
     """
     if target_vertices < 4:
-        raise ValueError(f"target_vertices must be at least 4, not {target_vertices}")
+        raise BadArgument(f"target_vertices must be at least 4, not {target_vertices}")
     center, size = center_and_size(mesh)
     unit = (mesh.vertices - center) / size
     a, b, c = unit[mesh.faces.T]

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from geodesics import Mesh, read_mesh
+from geodesics.errors import BadArgument
 from gmds.batch.pair_choice import Choice, Pairs, all_pairs
 from gmds.batch.pair_list import read_list
 from gmds.files.folders import mesh_files, shape_names
@@ -64,14 +65,14 @@ class Collection:
             paths = mesh_files(Path(given)) if isinstance(given, str | os.PathLike) else [Path(path) for path in given]
             named = dict(zip(names(paths), paths, strict=True))
         if listed is not None and pairs is not None:
-            raise ValueError("the list says which pairs to match; leave out `pairs`")
+            raise BadArgument("the list says which pairs to match; leave out `pairs`")
         chosen = listed if listed is not None else (pairs or all_pairs)
         found = dict.fromkeys((one, other) for one, other in (chosen(list(named)) if callable(chosen) else chosen))
         unknown = {name for pair in found for name in pair} - named.keys()
         if unknown:
-            raise ValueError(f"there is no shape {min(unknown)!r}; there are {', '.join(list(named)[:10])}")
+            raise BadArgument(f"there is no shape {min(unknown)!r}; there are {', '.join(list(named)[:10])}")
         if not found:
-            raise ValueError(f"there is nothing to match: {len(named)} shapes, no pair")
+            raise BadArgument(f"there is nothing to match: {len(named)} shapes, no pair")
         wanted = {name for pair in found for name in pair}
         shapes = {name: Shape(name, _absolute(origin)) for name, origin in named.items() if name in wanted}
         return cls(shapes, tuple(found))
@@ -104,7 +105,7 @@ def _plain(text: str) -> str:
 
 def _checked(name: str) -> str:
     if name != _plain(name):
-        raise ValueError(f"{name!r} cannot be part of the name of a file A__B.npz; {_plain(name)!r} could")
+        raise BadArgument(f"{name!r} cannot be part of the name of a file A__B.npz; {_plain(name)!r} could")
     return name
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Iterable, Sequence
 
+from geodesics.errors import BadArgument
 from gmds.suggestions import did_you_mean
 
 Pairs = Iterable[tuple[str, str]]
@@ -26,7 +27,7 @@ def with_template(template: str) -> Choice:
 
     def choose(names: Sequence[str]) -> Pairs:
         if template not in names:
-            raise ValueError(f"there is no shape {template!r}{did_you_mean(template, names)}")
+            raise BadArgument(f"there is no shape {template!r}{did_you_mean(template, names)}")
         return ((template, name) for name in names if name != template)
 
     return choose

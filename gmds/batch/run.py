@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from geodesics.errors import BadArgument
 from gmds.batch.agreement import agreement, write_cycles
 from gmds.batch.collection import Collection, Given
 from gmds.batch.cycles import Consistency
@@ -90,7 +91,7 @@ def match_collection(
     end_if_starting()
     check_keys(options, OPTIONS, "match_collection()")
     if not is_lasting(options.get("distance")):
-        raise ValueError("the distance needs a name that lasts: a function of a module, or functools.partial of one")
+        raise BadArgument("the distance needs a name that lasts: a function of a module, or functools.partial of one")
     collection = Collection.of(shapes, pairs)
     folder = Path(output).absolute()
     (folder / "pairs").mkdir(parents=True, exist_ok=True)

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from geodesics import GeodesicDistance, Mesh, SurfacePoints, embedded
 from geodesics.arrays import Floats, Integers
-from geodesics.errors import IndexOutOfRange
+from geodesics.errors import BadArgument, IndexOutOfRange
 from gmds.deformations.directions import unit
 from gmds.deformations.kept_faces import largest_piece, part
 from gmds.deformations.truths import Part
@@ -75,16 +75,16 @@ def cut(
        (4 or 13) have one radius (0.16 or 0.1) and the largest component is kept.
     """
     if not 0 <= share < 1:
-        raise ValueError(f"share must be at least 0 and below 1, not {share}")
+        raise BadArgument(f"share must be at least 0 and below 1, not {share}")
     if normal is not None and centre is not None:
-        raise ValueError("give either the normal of a plane or the centre of a ball, not both")
+        raise BadArgument("give either the normal of a plane or the centre of a ball, not both")
     if normal is not None:
         order = -mesh.vertices[mesh.faces].mean(axis=1) @ unit(normal)
     else:
         order = _balls(mesh, centre, count, rng)[mesh.faces].mean(axis=1)
     faces = _nearest_share(mesh, _ranked(order), share)
     if len(faces) == 0:
-        raise ValueError(f"a cut of {share} of the area leaves nothing; ask for a smaller one")
+        raise BadArgument(f"a cut of {share} of the area leaves nothing; ask for a smaller one")
     return part(mesh, faces)
 
 
@@ -96,7 +96,7 @@ def _balls(mesh: Mesh, centre: int | None, count: int, rng: int) -> Floats:
         centres, radii = np.array([centre]), np.ones(1)
     else:
         if count < 1:
-            raise ValueError(f"count must be at least 1, not {count}")
+            raise BadArgument(f"count must be at least 1, not {count}")
         random = np.random.default_rng(rng)
         centres = random.permutation(np.unique(mesh.faces))[:count]
         radii = random.uniform(SMALLEST_BALL, 1, len(centres))

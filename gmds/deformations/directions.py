@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geodesics.arrays import Floats
+from geodesics.errors import BadArgument
 
 
 def unit(direction: ArrayLike) -> Floats:
@@ -13,7 +14,7 @@ def unit(direction: ArrayLike) -> Floats:
     d = np.asarray(direction, dtype=np.float64)
     length = np.linalg.norm(d)
     if d.shape != (3,) or not (np.isfinite(length) and length > 0):
-        raise ValueError(f"a direction is three numbers that are not all 0, not {d.tolist()}")
+        raise BadArgument(f"a direction is three numbers that are not all 0, not {d.tolist()}")
     return np.asarray(d / length)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from geodesics import Mesh, SurfacePoints
+from geodesics.errors import BadArgument
 from gmds.deformations.truths import moved
 
 
@@ -34,5 +35,5 @@ def global_scale(mesh: Mesh, factor: float) -> tuple[Mesh, SurfacePoints]:
     local_scaling : From place to place differently.
     """
     if not factor > 0:
-        raise ValueError(f"factor must be positive, not {factor}")
+        raise BadArgument(f"factor must be positive, not {factor}")
     return moved(mesh, factor * mesh.vertices)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from geodesics import Mesh
+from geodesics.errors import BadArgument
 from gmds.deformations.kept_faces import largest_piece, part
 from gmds.deformations.limbs import edge_distances
 from gmds.deformations.truths import Part
@@ -45,5 +46,5 @@ def holes(mesh: Mesh, count: int = 5, *, radius: float = 0.05, rng: int = 0) -> 
     faces = mesh.faces[(distance > radius * np.sqrt(mesh.area))[mesh.faces].all(axis=1)]
     faces = largest_piece(mesh, faces, by_area=False)
     if len(faces) == 0:
-        raise ValueError(f"{count} holes of radius {radius} leave nothing; ask for fewer or smaller ones")
+        raise BadArgument(f"{count} holes of radius {radius} leave nothing; ask for fewer or smaller ones")
     return part(mesh, faces)

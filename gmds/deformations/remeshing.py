@@ -8,7 +8,7 @@ import numpy as np
 
 from geodesics import Mesh, SurfacePoints
 from geodesics.arrays import Integers
-from geodesics.errors import NotManifold
+from geodesics.errors import BadArgument, NotManifold
 from geodesics.repair.decimation import collapse
 from gmds.deformations.noise import mean_edge_length
 
@@ -62,7 +62,7 @@ def remeshing(
 
     wanted = mesh.n_vertices if n_vertices is None else n_vertices
     if wanted < 12:
-        raise ValueError(f"n_vertices must be at least 12, not {wanted}")
+        raise BadArgument(f"n_vertices must be at least 12, not {wanted}")
     vertices, faces = mesh.vertices, mesh.faces
     while _manifold(faces) and len(vertices) < 4 * wanted:
         vertices, faces = igl.upsample(vertices, faces, 1)

@@ -8,6 +8,7 @@ from scipy.spatial import cKDTree
 
 from geodesics import Mesh
 from geodesics.arrays import Bools, Floats
+from geodesics.errors import BadArgument
 from gmds.deformations.directions import camera_axes, unit
 from gmds.deformations.kept_faces import largest_piece, part
 from gmds.deformations.truths import Part
@@ -51,7 +52,7 @@ def scan(mesh: Mesh, direction: ArrayLike | None = None, *, rng: int = 0) -> Par
     seen[seen] = ~_hidden(corners[seen].mean(axis=1), corners)
     faces = largest_piece(mesh, mesh.faces[seen])
     if len(faces) == 0:
-        raise ValueError("nothing of the surface is seen from there; are its faces turned inside out?")
+        raise BadArgument("nothing of the surface is seen from there; are its faces turned inside out?")
     return part(mesh, faces)
 
 

@@ -6,6 +6,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from geodesics import Mesh, SurfacePoints
+from geodesics.errors import BadArgument
 from gmds.deformations.truths import moved
 
 
@@ -34,7 +35,7 @@ def similarity(mesh: Mesh, *, largest_scale: float = 1.0, rng: int = 0) -> tuple
         When `largest_scale` is less than 1.
     """
     if not largest_scale >= 1:
-        raise ValueError(f"largest_scale must be at least 1, not {largest_scale}")
+        raise BadArgument(f"largest_scale must be at least 1, not {largest_scale}")
     random = np.random.default_rng(rng)
     turn = Rotation.random(random_state=random)
     scale = largest_scale ** random.uniform(-1, 1)

@@ -9,6 +9,7 @@ from types import MappingProxyType
 from typing import Any
 
 from geodesics import Mesh, SurfacePoints
+from geodesics.errors import BadArgument
 from gmds.deformations.bending import bending
 from gmds.deformations.global_scale import global_scale
 from gmds.deformations.gluing import gluing
@@ -77,7 +78,7 @@ class Kind:
     def parameters(self, strength: int) -> dict[str, float]:
         """The parameters at a strength from 1 to 5; `ValueError` for another."""
         if strength not in STRENGTHS:
-            raise ValueError(f"strength must be one of {', '.join(map(str, STRENGTHS))}, not {strength}")
+            raise BadArgument(f"strength must be one of {', '.join(map(str, STRENGTHS))}, not {strength}")
         return {name: values[strength - 1] for name, values in self.table.items()}
 
     @property
@@ -143,5 +144,5 @@ def deformed(mesh: Mesh, kind: str, strength: int, rng: int = 0) -> tuple[Mesh, 
     gmds.deformations.compose : Several deformations as one.
     """
     if kind not in KINDS:
-        raise ValueError(f"kind must be one of {', '.join(KINDS)}, not {kind!r}")
+        raise BadArgument(f"kind must be one of {', '.join(KINDS)}, not {kind!r}")
     return KINDS[kind].apply(mesh, rng, **KINDS[kind].parameters(strength))

@@ -16,6 +16,8 @@ from gmds.landmarks.placed import PlacedLandmarks
 from gmds.landmarks.snapping import called_by, snapped
 from gmds.landmarks.soft import SoftLandmarks
 
+LARGEST_TOLERANCE = 1e6  # square roots of the area: a larger one says no more, and squares have to stay numbers
+
 
 def check_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> tuple[SurfacePoints, SurfacePoints]:
     """Corresponding points of both surfaces from what a user gives.
@@ -137,7 +139,7 @@ def _tolerances(given: ArrayLike, count: int) -> Floats:
         raise LandmarkError("E300", f"the tolerance must be a number or {count} of them ({error})") from error
     if not (np.isfinite(tolerance) & (tolerance >= 0)).all():
         raise LandmarkError("E300", "a tolerance must be 0 or a positive number, in square roots of the area")
-    return tolerance
+    return np.minimum(tolerance, LARGEST_TOLERANCE)
 
 
 def _at_vertices(given: NDArray[Any], mesh: Mesh, name: str, called: Sequence[str]) -> SurfacePoints:

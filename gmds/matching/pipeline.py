@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from geodesics import Distance, Mesh
+from geodesics.errors import BadArgument
 from geodesics.threads import on_one_blas_thread
 from gmds.correspondence import Correspondence
 from gmds.errors import SampleCountError
@@ -117,11 +118,11 @@ def match(  # noqa: PLR0913 - the signature is a promise
     `benchmarks/results/notes.md`.
     """
     if orientation not in ASKED:
-        raise ValueError(f"orientation must be one of {', '.join(map(repr, ASKED))}, not {orientation!r}")
+        raise BadArgument(f"orientation must be one of {', '.join(map(repr, ASKED))}, not {orientation!r}")
     if parts not in PARTS:
-        raise ValueError(f"parts must be one of {', '.join(map(repr, PARTS))}, not {parts!r}")
+        raise BadArgument(f"parts must be one of {', '.join(map(repr, PARTS))}, not {parts!r}")
     if parts not in ("auto", "neither") and distance is not None:
-        raise ValueError(f"parts={parts!r} is looked for without a distance of your own; leave one of them out")
+        raise BadArgument(f"parts={parts!r} is looked for without a distance of your own; leave one of them out")
     measured, facing = (s if isinstance(s, Surface) else measure(Mesh.from_object(s)) for s in (source, target))
     loss = LeastSquares() if loss is None else loss
     placed = None if landmarks is None else place_landmarks(landmarks, measured.given, facing.given)

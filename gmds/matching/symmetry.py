@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from geodesics import Mesh
+from geodesics.errors import BadArgument
 from geodesics.threads import on_one_blas_thread
 from gmds.correspondence import Correspondence
 from gmds.maps.point_map import MatchStatus
@@ -69,7 +70,7 @@ def self_symmetry(
     Global intrinsic symmetries of shapes (2008).
     """
     if n_vertices < 100:
-        raise ValueError(f"n_vertices must be at least 100, not {n_vertices}: fewer do not show a shape")
+        raise BadArgument(f"n_vertices must be at least 100, not {n_vertices}: fewer do not show a shape")
     report = progress or (lambda stage, fraction: None)
     started = time.perf_counter()
     mesh = Mesh.from_object(mesh)

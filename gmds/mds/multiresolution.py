@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from geodesics import SurfacePoints
+from geodesics.errors import BadArgument
 from geodesics.points import joined
 from gmds.mds.losses import Loss
 from gmds.mds.problem import Problem
@@ -67,7 +68,7 @@ def solve_multiresolution(
     """
     count = len(start)
     if not 2 <= count <= len(problem) or not growth > 1:
-        raise ValueError(f"cannot grow {count} of {len(problem)} samples by a factor of {growth}: need 2 and above 1")
+        raise BadArgument(f"cannot grow {count} of {len(problem)} samples by a factor of {growth}: need 2 and above 1")
     levels = [count]
     while levels[-1] < len(problem):
         levels.append(min(len(problem), int(np.ceil(growth * levels[-1]))))

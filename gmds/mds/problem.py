@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from geodesics import Distance, SurfacePoints
 from geodesics.arrays import Floats, Integers
 from geodesics.caching import cached_property
+from geodesics.errors import BadArgument
 from geodesics.tracing import barycentric_gradient
 from gmds.mds.jacobian import Jacobian, scaled
 from gmds.mds.pair_distances import Pairs, pairwise
@@ -68,7 +69,7 @@ class Problem:
         lengths = pairwise(source_distance, source_points).distances()[first, second]
         reached = np.isfinite(lengths)
         if not (lengths[reached] > 0).any():
-            raise ValueError("a problem needs at least two samples at a positive, finite distance from each other")
+            raise BadArgument("a problem needs at least two samples at a positive, finite distance from each other")
         first, second, lengths = first[reached], second[reached], lengths[reached]
         values = {
             "source_points": source_points,
@@ -103,9 +104,9 @@ class Problem:
     def at(self, points: SurfacePoints) -> Placement:
         """The problem seen from target points (p,), with residuals and their derivative."""
         if len(points) != len(self):
-            raise ValueError(f"{len(self)} samples need {len(self)} target points, not {len(points)}")
+            raise BadArgument(f"{len(self)} samples need {len(self)} target points, not {len(points)}")
         if points.mesh is not self.target_distance.mesh:
-            raise ValueError("the points lie on another mesh than the target distance measures")
+            raise BadArgument("the points lie on another mesh than the target distance measures")
         return Placement(self, points, pairwise(self.target_distance, points))
 
     def distance_table(self) -> Floats:
@@ -179,9 +180,9 @@ def _pairs(pairs: ArrayLike | None, count: int) -> tuple[Integers, Integers]:
         return first.astype(np.int64), second.astype(np.int64)
     chosen = np.asarray(pairs)
     if chosen.ndim != 2 or chosen.shape[1] != 2 or not np.issubdtype(chosen.dtype, np.integer):
-        raise ValueError(f"pairs must be whole numbers of shape (r, 2), not {chosen.dtype} of shape {chosen.shape}")
+        raise BadArgument(f"pairs must be whole numbers of shape (r, 2), not {chosen.dtype} of shape {chosen.shape}")
     if chosen.size and (chosen.min() < 0 or chosen.max() >= count or (chosen[:, 0] == chosen[:, 1]).any()):
-        raise ValueError(f"pairs must join two different samples of 0 .. {count - 1}")
+        raise BadArgument(f"pairs must join two different samples of 0 .. {count - 1}")
     chosen = np.unique(np.sort(chosen, axis=1), axis=0).astype(np.int64)
     return np.ascontiguousarray(chosen[:, 0]), np.ascontiguousarray(chosen[:, 1])
 
@@ -192,8 +193,8 @@ def _pair_weights(weights: ArrayLike | None, first: Integers, second: Integers, 
         return np.ones(len(first))
     w = np.asarray(weights, dtype=np.float64)
     if w.shape not in ((count,), (count, count)):
-        raise ValueError(f"weights must have shape ({count},) or ({count}, {count}), not {w.shape}")
+        raise BadArgument(f"weights must have shape ({count},) or ({count}, {count}), not {w.shape}")
     pair = w[first] * w[second] if w.ndim == 1 else 0.5 * (w[first, second] + w[second, first])
     if not np.isfinite(pair).all() or (pair < 0).any() or not pair.any():
-        raise ValueError("weights must be finite, not negative, and not all zero")
+        raise BadArgument("weights must be finite, not negative, and not all zero")
     return pair / pair.mean()

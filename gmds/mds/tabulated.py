@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from geodesics import Distance, Mesh, SurfacePoints, farthest_point_sampling
 from geodesics.arrays import Floats, Integers
 from geodesics.distance import as_points
+from geodesics.errors import BadArgument
 from geodesics.topology.components import vertex_components
 
 
@@ -61,7 +62,7 @@ class TabulatedDistance:
 
     def __init__(self, distance: Distance, landmarks: int = 300, rank: int = 120) -> None:
         if landmarks < 2 or rank < 1:
-            raise ValueError(f"a table needs 2 landmarks and rank 1 at least, not {landmarks} and {rank}")
+            raise BadArgument(f"a table needs 2 landmarks and rank 1 at least, not {landmarks} and {rank}")
         mesh = distance.mesh
         label = vertex_components(mesh)
         chosen = farthest_point_sampling(distance, min(landmarks, int((label >= 0).sum())))

@@ -8,6 +8,7 @@ from scipy.spatial import cKDTree
 
 from geodesics import Mesh
 from geodesics.arrays import Floats
+from geodesics.errors import BadArgument
 
 MISSING = (0.62, 0.62, 0.62)  # sRGB, grey for what has no counterpart or no value; set by hand
 
@@ -48,7 +49,7 @@ def per_vertex(values: ArrayLike, count: int) -> Floats:
     """Values as float64 (count,); ValueError when there is not one for every vertex."""
     v = np.asarray(values, dtype=np.float64)
     if v.shape != (count,):
-        raise ValueError(f"there must be one value for each of the {count} vertices, not an array of shape {v.shape}")
+        raise BadArgument(f"there must be one value for each of the {count} vertices, not an array of shape {v.shape}")
     return v
 
 

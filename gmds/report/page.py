@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from geodesics import Mesh
 from geodesics.arrays import Floats
-from geodesics.errors import MissingExtra
+from geodesics.errors import BadArgument, MissingExtra
 from geodesics.extras import how_to_install
 from geodesics.io import atomic_write
 from gmds.maps.point_map import PointMap
@@ -116,7 +116,7 @@ def _checked(errors: ArrayLike | None, answer: PointMap) -> Floats | None:
     rows = np.atleast_2d(np.asarray(errors, dtype=np.float64))
     n, most = answer.source.n_vertices, 1 + len(answer.candidates)
     if rows.ndim != 2 or rows.shape[1] != n or not 1 <= len(rows) <= most:
-        raise ValueError(
+        raise BadArgument(
             f"there must be one error for each of the {n} vertices, in at most {most} rows, not an array of shape "
             f"{np.shape(errors)}"
         )

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geodesics.arrays import Bools
+from geodesics.errors import BadArgument
 
 
 @dataclass(frozen=True)
@@ -40,7 +41,7 @@ def retrieval_scores(
         if relevant.any():
             judged.append(_judge(relevant))
     if not judged:
-        raise ValueError("no query has a shape of its class in the collection")
+        raise BadArgument("no query has a shape of its class in the collection")
     nearest, tier, precision = 100 * np.mean(judged, axis=0)
     return RetrievalScores(float(nearest), float(tier), float(precision), len(judged))
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from geodesics.arrays import Floats
+from geodesics.errors import BadArgument
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +50,7 @@ def learn_vocabulary(
     nearest other word. Raises ValueError without samples, or for n_words < 1 or softness < 0.
     """
     if not samples or n_words < 1 or not softness >= 0:
-        raise ValueError("a vocabulary needs descriptors of a surface, n_words >= 1 and softness >= 0")
+        raise BadArgument("a vocabulary needs descriptors of a surface, n_words >= 1 and softness >= 0")
     random = np.random.default_rng(rng)
     drawn = np.concatenate(
         [values[random.choice(len(values), per_surface, p=weight / weight.sum())] for values, weight in samples]

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from geodesics import Mesh, SurfacePoints
 from geodesics.arrays import Floats
+from geodesics.errors import BadArgument
 from geodesics.repair.decimation import collapse
 from gmds.shapes.marching_cubes import fine_surface
 from gmds.shapes.skeleton import Body, Move
@@ -52,7 +53,7 @@ def figure(body: Body, moves: Mapping[str, Move], *, spacing: float, n_vertices:
     """
     fine_rest, fine_faces = fine_surface(body, spacing, seed)
     if not 50 <= n_vertices < len(fine_rest):
-        raise ValueError(f"n_vertices must be from 50 to {len(fine_rest) - 1}, not {n_vertices}")
+        raise BadArgument(f"n_vertices must be from 50 to {len(fine_rest) - 1}, not {n_vertices}")
     posed = Mesh(body.pose(fine_rest, moves), fine_faces)
     near, faces = collapse(posed, n_vertices)
     rest = body.project(SurfacePoints.closest(posed, near).interpolate(fine_rest))

@@ -10,6 +10,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from geodesics.arrays import Bools, Floats
+from geodesics.errors import BadArgument
 from gmds.shapes.implicit import Part, Point, distances, project
 
 
@@ -77,7 +78,7 @@ class Body:
         """
         unknown = set(moves) - {joint.name for joint in self.joints}
         if unknown:
-            raise ValueError(f"no joint {sorted(unknown)[0]!r}; there are {', '.join(j.name for j in self.joints)}")
+            raise BadArgument(f"no joint {sorted(unknown)[0]!r}; there are {', '.join(j.name for j in self.joints)}")
         weights = self.membership(x)
         for joint, w in zip(self.joints[::-1], weights[::-1], strict=True):
             if moves.get(joint.name, Move()) == Move():
@@ -94,12 +95,12 @@ def scaled(
     """The moves of a pose, given by name or as they are, with joints enlarged; a name ending in _ is left and right."""
     if isinstance(pose, str):
         if pose not in poses:
-            raise ValueError(f"no pose {pose!r}; there are {', '.join(poses)}")
+            raise BadArgument(f"no pose {pose!r}; there are {', '.join(poses)}")
         pose = poses[pose]
     moves = dict(pose)
     for name, scale in scales.items():
         if not scale > 0:
-            raise ValueError(f"the scale of {name.rstrip('_')} must be positive, not {scale}")
+            raise BadArgument(f"the scale of {name.rstrip('_')} must be positive, not {scale}")
         for joint in (name + "left", name + "right") if name.endswith("_") else (name,):
             move = moves.get(joint, Move())
             moves[joint] = Move(move.turn, move.scale * scale)

@@ -90,10 +90,11 @@ def _vertices(text: str, distance: Distance) -> Integers:
     import numpy as np
 
     from geodesics import farthest_point_sampling
+    from geodesics.errors import BadArgument
 
     if text.isdigit():
         return np.array([int(text)])
     try:
         return farthest_point_sampling(distance, int(text.partition(":")[2]))
-    except ValueError as error:
-        raise ValueError(f"--from {text}: {error}") from error
+    except BadArgument as error:
+        raise BadArgument(f"--from {text}: {error.args[0]}") from error

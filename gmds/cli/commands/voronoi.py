@@ -38,6 +38,7 @@ def command(
     import numpy as np
 
     from geodesics import read_mesh
+    from geodesics.errors import BadArgument
     from geodesics.sampling import farthest_point_cells
     from gmds.cli.choices import ChosenDistance
 
@@ -47,8 +48,8 @@ def command(
         measured = ChosenDistance(metric, distance)(surface)
         try:
             cells = farthest_point_cells(measured, samples)
-        except ValueError as error:
-            raise ValueError(f"--samples {samples}: {error}") from error
+        except BadArgument as error:
+            raise BadArgument(f"--samples {samples}: {error.args[0]}") from error
     sample = np.where(cells.nearest < 0, -1, cells.samples[cells.nearest])
     write_field(
         output,

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from geodesics.arrays import Floats
+from geodesics.errors import BadArgument
 from gmds.mds.losses.base import SmoothLoss
 
 
@@ -37,7 +38,7 @@ class Huber(SmoothLoss):
 
     def __post_init__(self) -> None:
         if not self.threshold > 0:
-            raise ValueError(f"the threshold of Huber's loss must be positive, not {self.threshold}")
+            raise BadArgument(f"the threshold of Huber's loss must be positive, not {self.threshold}")
 
     def rho(self, residuals: Floats) -> Floats:
         """min(|r|, t) (2 |r| - min(|r|, t))."""

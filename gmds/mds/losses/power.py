@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from geodesics.arrays import Floats
+from geodesics.errors import BadArgument
 from gmds.mds.losses.base import SmoothLoss
 
 
@@ -38,7 +39,7 @@ class Power(SmoothLoss):
 
     def __post_init__(self) -> None:
         if not (1 <= self.exponent < np.inf and 0 < self.rounding < np.inf):
-            raise ValueError(f"{self} needs an exponent of at least 1 and a positive rounding")
+            raise BadArgument(f"{self} needs an exponent of at least 1 and a positive rounding")
 
     def rho(self, residuals: Floats) -> Floats:
         """(r^2 + s^2)^(p/2) - s^p."""

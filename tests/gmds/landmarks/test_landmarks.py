@@ -135,6 +135,7 @@ def test_tolerances_are_one_each() -> None:
     assert place_landmarks(SoftLandmarks(PAIRS, [0, 0.2, 0.3]), A, B).tolerance.tolist() == [0, 0.2, 0.3]
     assert place_landmarks(PAIRS, A, B).tolerance.tolist() == [0] * 3
     assert (place_landmarks(SoftLandmarks(PAIRS), A, B).tolerance > 0).all()
+    assert np.isfinite(place_landmarks(SoftLandmarks(PAIRS, 1e300), A, B).tolerance ** 2).all()
 
 
 def test_the_last_face_and_the_last_vertex_carry_landmarks() -> None:
