@@ -39,8 +39,9 @@ LEAST_CURVATURE = 0.5
 # Length of the boundary in root areas, above which something may be missing: the wrist of a person is 0.1 around.
 # What is shorter is an eye, or a hole of a scan.
 LEAST_BOUNDARY = 0.1
-# A negative log-likelihood of a map of one whole to the other, below which nothing is missing: six pairs of faces, open
-# below the chin, have -16.3 to -13.6, the development half of the parts of people and animals -10.6 to -7.4.
+# A negative log-likelihood of a map of one whole to the other, below which nothing is missing of two surfaces that are
+# both open: six pairs of faces, cut below the chin, have -16.3 to -13.6, the development half of the parts of people
+# and animals -10.6 to -7.4. Where one alone is open it says nothing: a body without its tail is like the whole one.
 WHOLE = -13.0
 FIT_OF_A_REGION = 0.3  # of log-likelihood: a surface is no part of its own copy; set by hand
 
@@ -83,7 +84,7 @@ def maps_of_parts(
 ) -> list[PartAnswer]:
     """What comes of taking one surface for a part of the other, for each that may be; none where neither may.
 
-    A surface without a boundary, or with a short one, is no part; nor is one of two that fit as a `whole`.
+    A surface without a boundary, or with a short one, is no part; nor is one of two open ones that fit as a `whole`.
     """
     sides: dict[Part, tuple[Surface, Surface]] = {
         "source": (pair.source, pair.target),
@@ -103,11 +104,11 @@ def maps_of_parts(
 
 
 def _asked(sides: Mapping[Part, tuple[Surface, Surface]], whole: Sequence[Proposal]) -> list[Part]:
-    """Which of the `sides` may be parts, by their boundaries, where a map of the whole does not explain all."""
-    if min(one.neg_log_likelihood for one in whole) < WHOLE:
-        return []
+    """Which of the `sides` may be parts, by their boundaries and, where both have one, by maps of the whole."""
     cut = [name for name, (part, _) in sides.items() if boundary_length(part.mesh) > LEAST_BOUNDARY]
-    return cut if len(cut) < len(sides) else ["both"]
+    if len(cut) < len(sides):
+        return cut
+    return ["both"] if min(one.neg_log_likelihood for one in whole) > WHOLE else []
 
 
 def boundary_length(mesh: Mesh) -> float:

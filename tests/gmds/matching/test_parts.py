@@ -180,3 +180,14 @@ def test_of_two_that_fit_as_wholes_neither_is_a_part() -> None:
     assert maps_of_parts(pair, [named(WHOLE - 0.1)], "neither", LeastSquares(), 100, report) == []
     found = maps_of_parts(pair, [named(WHOLE + 0.1)], "auto", LeastSquares(), 100, report)
     assert [one.part for one in found] == ["both"]
+
+
+def test_a_tail_that_is_not_there_is_marked_though_the_rest_fits_as_a_whole() -> None:
+    whole = animal(n_vertices=1500)
+    tail = int(whole.vertices[:, 0].argmin())
+    cut = gmds.deformations.cut(whole, 0.03, centre=tail)
+    gone = np.zeros(whole.n_vertices, dtype=bool)
+    gone[cut.missing] = True
+    answer = gmds.match(whole, cut.mesh)
+    assert answer.meta["part"] == "target"
+    assert answer.valid[~gone].mean() > 0.98 and (~answer.valid)[gone].mean() > 0.8
