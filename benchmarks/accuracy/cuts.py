@@ -1,6 +1,7 @@
 """Limbs, heads and halves cut off built-in shapes, TOSCA and FAUST, matched with another pose; and the way back.
 
     GMDS_DATA=... python -m benchmarks.accuracy.cuts [--groups TOSCA,FAUST] [--every N] [--workers 2]
+    pip install pyfmaps==1.3.1; GMDS_DATA=... python -m benchmarks.accuracy.cuts --peer
 
 Twenty parts, from which `gmds.deformations.cut` has taken 10 to 50 % of the area, each onto the whole of another pose
 and the whole onto the part; every mesh turned and resized at random, defaults only. Truth and columns as in
@@ -19,7 +20,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from benchmarks.accuracy.parts import NAMES, Known, cells_of, judged_row, read_rows, run
+import gmds
+from benchmarks.accuracy.part_tables import NAMES, cells_of, statuses
+from benchmarks.accuracy.parts import PEER, Known, judged_row, read_rows, run
+from benchmarks.accuracy.peers import functional_map
 from benchmarks.accuracy.runs import ONE_THREAD, code_version
 from benchmarks.markdown import table
 from benchmarks.places import RESULTS
@@ -79,12 +83,12 @@ CUTTINGS = (
 
 
 def row(task: tuple[Cutting, bool], version: str) -> dict[str, Any]:
-    """One cutting, the part onto the whole or the whole onto the part, matched and judged."""
+    """One cutting, the part onto the whole or the whole onto the part, matched and judged; by pyFM for its version."""
     cutting, back = task
     part, whole, known = (built_in if cutting.group == "built-in" else published)(cutting, back)
     meshes = (whole, part.mesh) if back else (part.mesh, whole)
     names = {"name": named(cutting, back), "group": cutting.group + (" back" if back else "")}
-    return judged_row(names, meshes, known, version)
+    return judged_row(names, meshes, known, version, functional_map if version == PEER else gmds.match)
 
 
 def named(cutting: Cutting, back: bool) -> str:
@@ -136,10 +140,12 @@ def published(cutting: Cutting, back: bool) -> tuple[Part, Mesh, Known]:
 
 def page(rows: Sequence[Mapping[str, str]], version: str) -> str:
     """The table of all groups."""
-    lines = ["# Cuts", "", f"`python -m benchmarks.accuracy.cuts` at {version}; see the script for the protocol.", ""]
+    command = f"python -m benchmarks.accuracy.cuts{' --peer' if version == PEER else ''}"
+    lines = ["# Cuts", "", f"`{command}` at {version}; see the script for the protocol.", ""]
     groups = sorted({one["group"] for one in rows})
     cells = [cells_of(group, [one for one in rows if one["group"] == group], GOAL) for group in groups]
-    return "\n".join([*lines, *table(NAMES, cells), ""])
+    status = [] if version == PEER else ["", "## Status", "", *statuses({"all": rows})]
+    return "\n".join([*lines, *table(NAMES, cells), *status, ""])
 
 
 def main() -> None:
@@ -148,17 +154,19 @@ def main() -> None:
     parser.add_argument("--groups", type=lambda text: text.split(","), help="names, separated by commas")
     parser.add_argument("--every", type=int, default=1, help="every N-th row only")
     parser.add_argument("--workers", type=int, default=2)
+    parser.add_argument("--peer", action="store_true", help="pyFM on the same pairs")
     parser.add_argument("--output", type=Path, default=RESULTS)
     options = parser.parse_args()
     os.environ.update(ONE_THREAD)
-    path, version = options.output / "cuts.csv", code_version()
+    name, version = ("peers_cuts", PEER) if options.peer else ("cuts", code_version())
+    path = options.output / f"{name}.csv"
     tasks = [(cutting, back) for back in (False, True) for cutting in CUTTINGS]
     tasks = [(one, back) for one, back in tasks if options.groups is None or one.group in options.groups]
     done = read_rows(path, version)
     todo = [(one, back) for one, back in tasks[:: options.every] if named(one, back) not in done]
     rows = run(row, todo, path, version, options.workers)
     text = page(list(rows.values()), version)
-    (options.output / "cuts.md").write_text(text, encoding="utf-8")
+    (options.output / f"{name}.md").write_text(text, encoding="utf-8")
     print(text)
 
 

@@ -28,6 +28,7 @@ import numpy as np
 
 import gmds
 from benchmarks.accuracy.halves import PARTIAL, half_of, pairs_of
+from benchmarks.accuracy.part_tables import NAMES, cells_of, statuses
 from benchmarks.accuracy.peers import functional_map
 from benchmarks.accuracy.runs import ONE_THREAD, code_version
 from benchmarks.markdown import table
@@ -66,7 +67,6 @@ SCANS = {
 }  # sets of which the partial test set counts
 GOALS |= {SCANS["shrec20"]: "8.0", SCANS["shrec20_reversed"]: "12.0"}
 PEER = "pyfmaps 1.3.1"  # the version of what others reach
-FAILED = 20  # an error x100 above which a pair has failed
 
 
 def is_development(name: str) -> bool:
@@ -191,33 +191,20 @@ def write_rows(path: Path, rows: Mapping[str, Mapping[str, Any]]) -> None:
     write_table(path, COLUMNS, [[one[column] for column in COLUMNS] for one in ordered])
 
 
-NAMES = ["group", "pairs", "error x100", "median", "worst", f"above {FAILED}", "IoU", "precision", "recall"]
-NAMES += ["above 15 and GOOD", "below 5 and POOR", "CPU s", "goal"]
-
-
-def cells_of(group: str, some: Sequence[Mapping[str, str]], goal: str) -> list[Any]:
-    """A group as a row of the table with the columns `NAMES`."""
-    errors = np.array([float(one["error"]) for one in some])
-    figures = [f"{errors.mean():.2f}", f"{np.median(errors):.2f}", f"{errors.max():.2f}"]
-    means = [f"{np.mean([float(one[key]) for one in some]):.2f}" for key in ("iou", "precision", "recall")]
-    good = sum(one["status"] == "GOOD" and float(one["error"]) > 15 for one in some)
-    poor = sum(one["status"] == "POOR" and float(one["error"]) < 5 for one in some)
-    seconds = f"{np.median([float(one['cpu_seconds']) for one in some]):.1f}"
-    failed = f"{(errors > FAILED).sum()} of {len(some)}"
-    return [group, len(some), *figures, failed, *means, good, poor, seconds, goal]
-
-
 def page(rows: Sequence[Mapping[str, str]], version: str) -> str:
     """The table of both halves."""
     command = f"python -m benchmarks.accuracy.parts{' --peer' if version == PEER else ''}"
     lines = ["# Parts", "", f"`{command}` at {version}; see the script for the protocol.", ""]
-    for title, half in (("Reporting half", False), ("Development half", True)):
-        cells = []
-        for group in GOALS:
-            some = [one for one in rows if one["group"] == group and is_development(one["pair"]) == half]
-            if some:
-                cells.append(cells_of(group, some, GOALS[group]))
+    halves = {
+        title: [one for one in rows if is_development(one["pair"]) == half]
+        for title, half in (("Reporting half", False), ("Development half", True))
+    }
+    for title, known in halves.items():
+        groups = {group: [one for one in known if one["group"] == group] for group in GOALS}
+        cells = [cells_of(group, some, GOALS[group]) for group, some in groups.items() if some]
         lines += [f"## {title}", "", *table(NAMES, cells), ""]
+    if version != PEER:  # others say nothing of how far to trust a map
+        lines += ["## Status", "", *statuses({**halves, "all": rows})]
     return "\n".join(lines)
 
 

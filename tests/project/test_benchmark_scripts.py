@@ -120,6 +120,33 @@ def test_statuses_are_counted(scripts: Any) -> None:
     assert half[2] == "| set | 1 | 20.00 | 20.00 | 1 | 1.00 | 1.00 |"
 
 
+def test_wrong_maps_of_parts_and_right_ones_called_wrong_are_counted(scripts: Any) -> None:
+    rows = [
+        {"error": "15.1", "status": "GOOD"},
+        *3 * [{"error": "40", "status": "POOR"}],
+        {"error": "16", "status": "AMBIGUOUS"},
+        *2 * [{"error": "1", "status": "GOOD"}],
+        {"error": "4.9", "status": "POOR"},
+        {"error": "9", "status": "POOR"},
+    ]
+    lines = scripts("part_tables").statuses({"some": rows, "none": []})
+    assert lines[2:4] == ["| some | 5 | 4 | 80 % | 3 | 1 | 33 % |", "| none | 0 | 0 | - | 0 | 0 | - |"]
+    one = {**rows[0], "iou": "0.5", "precision": "1", "recall": "0.5", "cpu_seconds": "9"}
+    two = {**one, "error": "24.9", "status": "POOR", "iou": "1"}
+    cells = scripts("part_tables").cells_of("set", [one, two], "3.0")
+    assert cells == ["set", 2, "20.00", "20.00", "24.90", "1 of 2", "0.75", "1.00", "0.50", 1, 0, "9.0", "3.0"]
+
+
+@pytest.mark.parametrize("name", ["parts", "cuts"])
+def test_pages_of_parts_tell_their_command_and_only_ours_have_a_status(scripts: Any, name: str) -> None:
+    script = scripts(name)
+    columns = dict.fromkeys(scripts("parts").COLUMNS, "1")
+    rows = [{**columns, "pair": "a", "group": "PFAUST-M", "status": "GOOD"}]
+    ours, theirs = script.page(rows, "abc"), script.page(rows, script.PEER)
+    assert f"`python -m benchmarks.accuracy.{name}` at abc" in ours and "## Status" in ours
+    assert f"`python -m benchmarks.accuracy.{name} --peer` at {script.PEER}" in theirs and "## Status" not in theirs
+
+
 def test_a_change_inside_lasts_for_one_match(scripts: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     import gmds
 
