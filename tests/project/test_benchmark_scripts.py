@@ -223,3 +223,25 @@ def test_cuts_are_twenty_and_their_truth_is_exact(scripts: Any, monkeypatch: pyt
     again = there.points[back.points.nearest_vertices()].positions
     edges = np.linalg.norm(whole.vertices[whole.faces[:, 0]] - whole.vertices[whole.faces[:, 1]], axis=1)
     assert np.linalg.norm(again - whole.vertices[back.there], axis=1).max() < 2 * edges.max()
+
+
+def test_random_parts_repeat_and_their_truth_is_exact(
+    scripts: Any, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    random_parts = scripts("random_parts")
+    (tmp_path / "tosca_5k").mkdir()
+    for name in ("cat0", "cat1", "dog0"):
+        (tmp_path / "tosca_5k" / f"{name}.off").touch()
+    monkeypatch.setenv("GMDS_DATA", str(tmp_path))
+    monkeypatch.setattr(random_parts, "VERTICES", 800)
+    some = random_parts.drawn(12, 3)
+    assert str(some[:5]) == str(random_parts.drawn(5, 3)) != str(random_parts.drawn(5, 4))
+    assert {one.how for one in some} == set(random_parts.HOW) and all(one.part != one.whole for one in some)
+    assert {one.part[:3] for one in some if one.kind == "TOSCA"} == {"cat"}  # of one dog there is no other pose
+    for one in (some[2], some[5], some[8]):
+        part, whole, onto, back = random_parts.made(one)
+        assert len(onto.there) == part.mesh.n_vertices and onto.points.mesh is whole
+        assert sorted([*back.there, *back.missing]) == list(range(whole.n_vertices))
+        again = onto.points[back.points.nearest_vertices()].positions
+        edges = np.linalg.norm(whole.vertices[whole.faces[:, 0]] - whole.vertices[whole.faces[:, 1]], axis=1)
+        assert np.linalg.norm(again - whole.vertices[back.there], axis=1).max() < 2 * edges.max()
