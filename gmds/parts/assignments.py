@@ -54,18 +54,24 @@ def consistent_assignments(ours: Floats, theirs: Floats, alike: Bools | None = N
 
 def _grown(pairs: list[tuple[int, int]], logs: Floats, log: float, alike: Bools) -> list[tuple[int, int]]:
     """The pairs, and others that agree with all of them on the scale, those that agree best first."""
-    k, q = logs.shape[0], logs.shape[2]
+    gaps = np.where(alike, 0.0, np.inf)  # by how much each pair (i, a) disagrees with any of `pairs`
+    for pair in pairs:
+        gaps = _disagreement(gaps, logs, log, pair)
     while True:
-        best, least = None, TOLERANCE
-        for i, a in itertools.product(range(k), range(q)):
-            if not alike[i, a] or any(i == j or a == b for j, b in pairs):
-                continue
-            gap = max(abs(float(logs[i, j, a, b]) - log) for j, b in pairs)
-            if gap < least:
-                best, least = (i, a), gap
-        if best is None:
+        i, a = divmod(int(gaps.argmin()), gaps.shape[1])
+        if not gaps[i, a] < TOLERANCE:
             return pairs
-        pairs = [*pairs, best]
+        pairs = [*pairs, (i, a)]
+        gaps = _disagreement(gaps, logs, log, (i, a))
+
+
+def _disagreement(gaps: Floats, logs: Floats, log: float, pair: tuple[int, int]) -> Floats:
+    """The gaps (k, q) with one more pair; inf where its points are taken, and where nothing can be told."""
+    j, b = pair
+    more = np.maximum(gaps, np.abs(logs[:, j, :, b] - log))
+    more[j], more[:, b] = np.inf, np.inf
+    more[np.isnan(more)] = np.inf
+    return more
 
 
 def _assignment(pairs: list[tuple[int, int]], logs: Floats) -> Assignment:

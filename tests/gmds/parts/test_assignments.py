@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geodesics.arrays import Floats
+from geodesics.arrays import Bools, Floats
+from gmds.parts import assignments
 from gmds.parts.assignments import LEAST_SCALE, MOST_SCALE, TOLERANCE, Assignment, consistent_assignments, indices
 
 
@@ -98,3 +99,26 @@ def test_only_what_is_alike_is_assigned() -> None:
     alike[0, true[0]] = False
     without = consistent_assignments(ours, theirs, alike)
     assert not any((0, true[0]) in zip(one.ours, one.theirs, strict=True) for one in without)
+
+
+def grown_one_by_one(pairs: list[tuple[int, int]], logs: Floats, log: float, alike: Bools) -> list[tuple[int, int]]:
+    """`_grown` in words: of all pairs of free points the one that disagrees least, in the worst of its distances."""
+    while True:
+        gaps = {
+            (i, a): max(abs(float(logs[i, j, a, b]) - log) for j, b in pairs)
+            for i, a in zip(*np.nonzero(alike), strict=True)
+            if all(i != j and a != b for j, b in pairs)
+        }
+        best = min(gaps, key=lambda pair: gaps[pair], default=None)
+        if best is None or gaps[best] >= TOLERANCE:
+            return pairs
+        pairs = [*pairs, best]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_they_grow_as_one_by_one(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    ours, theirs, _ = planted(seed, 5, 1.3, noise=TOLERANCE / 2)
+    alike = np.random.default_rng(seed).random((5, 8)) < 0.8
+    found = consistent_assignments(ours, theirs, alike)
+    monkeypatch.setattr(assignments, "_grown", grown_one_by_one)
+    assert found == consistent_assignments(ours, theirs, alike)
