@@ -156,7 +156,10 @@ def page(rows: Sequence[dict[str, Any]], version: str) -> str:
             ]
             cells.append([group, len(some), *figures, f"{(errors > FAILED).sum()} of {len(some)}"])
     head = ["group", "pairs", "error x100", "median", "worst", "IoU", "least", f"above {FAILED}"]
-    lines = ["# Parts drawn at random", "", f"`python -m benchmarks.accuracy.random_parts` at {version}.", ""]
+    count = len({one["pair"].split()[0] for one in rows})
+    command = "python -m benchmarks.accuracy.random_parts"
+    about = f"`{command}` at {version}; {count} of the pairs drawn; see the script for the protocol."
+    lines = ["# Parts drawn at random", "", about, ""]
     lines += [*table(head, cells), "## Status", "", *statuses({"all": rows})]
     worst = sorted(rows, key=lambda one: -float(one["error"]))
     doubtful = [one for one in worst if float(one["error"]) > 5 or float(one["iou"]) < 0.8]
