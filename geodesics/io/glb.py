@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from geodesics.arrays import Floats, Integers
-from geodesics.errors import BadContainer, IndexOutOfRange, InflatesTooFar
+from geodesics.errors import BadContainer, IndexOutOfRange, InflatesTooFar, NoFaces
 from geodesics.io.cells import triangles_of_strips
 from geodesics.io.contents import Contents, Part
 from geodesics.io.gltf_accessor import read_accessor
@@ -48,7 +48,9 @@ def _read(gltf: Gltf, size: int) -> Contents:
     joined = _Joined()
     for place in placed_meshes(gltf):
         _add(gltf, place, joined, max(MOST_BYTES, size))
-    if not joined.parts and not joined.others:
+    if not joined.parts:
+        if joined.others:
+            raise NoFaces(f"{gltf.path}: the scene has points or lines alone; points must be triangulated first")
         raise BadContainer(f"{gltf.path}: there are 0 mesh parts in the scene")
     notes = []
     if len(joined.parts) > 1:

@@ -42,7 +42,7 @@ def read_obj(data: bytes, path: Path) -> Contents:
 
 def statements(data: bytes, path: Path) -> Iterator[Row]:
     """The lines of the file, those that a backslash continues made one."""
-    return rows(re.sub(rb"\\\r?\n", b"  ", data), path)
+    return rows(re.sub(rb"\\(\r\n|\n|\r)", b"  ", data), path)
 
 
 def _corners(row: Row, defined: int, n_vertices: int, path: Path) -> list[int]:

@@ -1,4 +1,4 @@
-"""OFF: a header, the counts, one vertex a line, one face a line."""
+"""OFF: a header, which some leave out, the counts, one vertex a line, one face a line."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def read_off(data: bytes, path: Path) -> Contents:
     """An ASCII OFF file, with any of the prefixes ST, C, N; more lines than declared are allowed, fewer are not."""
     table = list(rows(data, path))
     line, words = table[0]
-    keyword = re.match(r"(ST|C|N|4)*OFF", words[0], re.IGNORECASE)
+    keyword = re.match(r"(ST|C|N|4)*OFF|(?=\d)", words[0], re.IGNORECASE)
     if keyword is None or "4" in keyword[0] or words[0].startswith("nOFF") or "BINARY" in (w.upper() for w in words):
         raise UnknownFormat(f"{path}, line {line}: only ASCII OFF in three dimensions is supported")
     rest = [word for word in (words[0][keyword.end() :], *words[1:]) if word]
@@ -30,6 +30,8 @@ def read_off(data: bytes, path: Path) -> Contents:
             raise TruncatedFile(f"{path}, line {line}: the file ends before its counts")
         line, rest = body[0]
         body = body[1:]
+    if len(body) > 1 and len(rest) == 1 and len(body[0].words) + len(body[1].words) == 2:  # a count a line
+        rest, body = [*rest, *body[0].words, *body[1].words], body[2:]
     return _read_body(Row(line, rest), body, data, path)
 
 

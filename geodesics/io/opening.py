@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import gzip
 import io
 import os
@@ -40,7 +41,17 @@ def read_bytes(path: Path) -> bytes:
                 raise LineTooLong(f"{path}: a line is longer than {LONGEST_LINE} bytes")
             pieces.append(piece)
     data = b"".join(pieces)
-    return _unpacked(data, path) if data.startswith(b"\x1f\x8b") else data
+    return recoded(_unpacked(data, path) if data.startswith(b"\x1f\x8b") else data)
+
+
+def recoded(data: bytes) -> bytes:
+    """Text in UTF-16, as PowerShell and the Unicode text of spreadsheets are, in UTF-8; anything else as it is."""
+    if not data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return data
+    try:
+        return data.decode("utf-16").encode("utf-8")
+    except UnicodeError:
+        return data
 
 
 def is_marked_up(start: bytes) -> bool:

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import numpy as np
 
-from geodesics.errors import FormatError, IndexOutOfRange
+from geodesics.errors import BadPolygon, FormatError, IndexOutOfRange, TruncatedFile
 from geodesics.io.cells import Cells, joined, no_cells, surface
 from geodesics.io.contents import Contents
 from geodesics.io.ply_columns import BinaryColumns, TextColumns, read_binary, read_text
 from geodesics.io.ply_header import Element, Header, read_header
-from geodesics.io.text import rows
+from geodesics.io.text import Row, rows
 from geodesics.io.truncation import refuse_cut_face
 from geodesics.notes import Note
 
@@ -47,10 +47,14 @@ def read_columns(data: bytes, header: Header, path: Path) -> tuple[dict[str, Col
     """The columns of every element, and a note (W220) when there is more in the file."""
     columns: dict[str, Columns] = {}
     if header.encoding == "ascii":
-        lines = rows(data[header.body :], path, comment=None, first_line=header.n_lines + 1)
-        for name, element in header.elements.items():
-            columns[name] = read_text(element, lines, path)
-        behind = sum(1 for _ in lines)
+        table = list(rows(data[header.body :], path, comment=None, first_line=header.n_lines + 1))
+        try:
+            columns, behind = _text_columns(table, header, path)
+        except (BadPolygon, TruncatedFile):
+            flowing = _rearranged(table, header)
+            if flowing is None:
+                raise
+            columns, behind = _text_columns(flowing, header, path)
         what = f"{behind} lines"
     else:
         at, order = header.body, "<" if header.encoding == "binary_little_endian" else ">"
@@ -59,6 +63,34 @@ def read_columns(data: bytes, header: Header, path: Path) -> tuple[dict[str, Col
         behind = len(data) - at
         what = f"{behind} bytes"
     return columns, [Note("W220", "info", f"{what} behind the declared elements were passed over")] if behind else []
+
+
+def _text_columns(table: list[Row], header: Header, path: Path) -> tuple[dict[str, Columns], int]:
+    """The columns of elements in text, a line each, and how many lines are left."""
+    lines = iter(table)
+    columns: dict[str, Columns] = {name: read_text(each, lines, path) for name, each in header.elements.items()}
+    return columns, sum(1 for _ in lines)
+
+
+def _rearranged(table: list[Row], header: Header) -> list[Row] | None:
+    """A row for each of what the header declares, of a file whose lines end elsewhere; None where words do not add up.
+
+    Many programs read word by word, so that lines mean nothing to them; the words of a sound file are used up exactly.
+    """
+    words = [word for row in table for word in row.words]
+    lines = [row.line for row in table for _ in row.words]
+    made, at = [], 0
+    for element in header.elements.values():
+        for _ in range(element.length):
+            start = at
+            for each in element.properties:
+                word = words[at] if at < len(words) else ""
+                if not word or (each.size and not (word.isascii() and word.isdecimal() and len(word) < 10)):
+                    return None
+                at += 1 + int(word) if each.size else 1
+            if element.properties:
+                made.append(Row(lines[start], words[start:at]))
+    return made if at == len(words) else None
 
 
 def _has_corners(element: Element) -> bool:

@@ -10,6 +10,7 @@ from geodesics.io.opening import SUPPORTED, unpacked_name
 
 _BEFORE = rb"\s*(?:#[^\r\n]*[\r\n]\s*)*"  # blank lines and comments
 _OFF = re.compile(_BEFORE + rb"(?:ST|C|N|4)*OFF(?![a-z_])", re.IGNORECASE)
+_COUNTS = re.compile(_BEFORE + rb"\d+\s+\d+\s+\d+\s")  # those of an OFF file, whose keyword Geomview does not ask for
 _OBJ = re.compile(
     _BEFORE + rb"(?:v|vn|vt|vp|f|fo|l|p|o|g|s|mg|mtllib|usemtl|usemap|maplib|bevel|lod|c_interp|d_interp|cstype|deg"
     rb"|shadow_obj|trace_obj|ctech|stech|bmat|step|curv2?|surf|parm|trim|hole|scrv|sp|con|call|csh|end)(?=\s)"
@@ -63,7 +64,7 @@ def sniff(data: bytes, path: Path) -> str:
         return "gltf"
     if suffix in (".vert", ".tri") and re.match(rb"\s*[-+.\d]", head):
         return "tosca"
-    if _OFF.match(head):
+    if _OFF.match(head) or (suffix == ".off" and _COUNTS.match(head)):
         return "off"
     if _OBJ.match(head):
         return "obj"

@@ -47,6 +47,18 @@ def read_table(path: Path) -> list[dict[str, str]]:
         return [dict(zip(titles, map(unguarded, row), strict=True)) for row in rows]
 
 
+def delimiter(line: str) -> str:
+    """What parts the cells of a line: a tab, else a semicolon unless there are more commas, which may be decimal."""
+    bare = re.sub('"[^"]*"', "", line)
+    return "\t" if "\t" in bare else ";" if bare.count(";") >= max(1, bare.count(",")) else ","
+
+
+def plain_number(word: str) -> str:
+    """The word, or with a decimal point where it has one decimal comma."""
+    word = word.strip()
+    return word.replace(",", ".") if word.count(",") == 1 and "." not in word else word
+
+
 def unguarded(text: str) -> str:
     """A cell of one of our tables as it was before it was written."""
     return text[1:] if text.startswith("'") and FORMULA.match(text) else text

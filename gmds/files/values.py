@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from geodesics.arrays import Floats
 from geodesics.errors import FormatError
+from geodesics.io.opening import recoded
 from gmds.files.npz import read_npy
-from gmds.files.table import unguarded
+from gmds.files.table import delimiter, plain_number, unguarded
 
 KINDS = "biufcU"  # truth values, numbers, words
 
@@ -25,7 +26,7 @@ class BadValuesFile(FormatError):
 
 
 def read_values(path: Path, count: int, *, labels: bool = False) -> NDArray[Any]:
-    """Values (count,) or (count, k) from a .npy or a text file, .csv with commas or .txt with blanks.
+    """Values (count,) or (count, k) from a .npy or a text file, .csv with commas (or semicolons) or .txt with blanks.
 
     In text one line more than there are vertices is a header, and a first column that it calls `vertex` counts from 0.
     Text holds numbers, float64; with `labels` whole numbers, int64, or else words. Raises `BadValuesFile`.
@@ -68,11 +69,11 @@ def _from_text(path: Path, count: int, labels: bool) -> NDArray[Any]:
 def _rows(path: Path) -> list[tuple[int, list[str]]]:
     """Line numbers, and the entries of lines that are not empty."""
     try:
-        with path.open(encoding="utf-8-sig", newline="") as stream:
-            if path.suffix.lower() == ".csv":
-                reader = csv.reader(stream)
-                return [(reader.line_num, words) for words in reader if words]
-            return [(number, line.split()) for number, line in enumerate(stream, start=1) if line.strip()]
+        lines = recoded(path.read_bytes()).decode("utf-8-sig").splitlines()
+        if path.suffix.lower() == ".csv":
+            reader = csv.reader(lines, delimiter=delimiter(lines[0] if lines else ""))
+            return [(reader.line_num, words) for words in reader if words]
+        return [(number, line.split()) for number, line in enumerate(lines, start=1) if line.strip()]
     except (UnicodeDecodeError, csv.Error) as error:
         raise BadValuesFile(f"{path} is not UTF-8 text ({error})") from error
 
@@ -89,7 +90,7 @@ def _numbers(path: Path, rows: list[tuple[int, list[str]]]) -> Floats:
     for i, (number, words) in enumerate(rows):
         for j, word in enumerate(words):
             try:
-                values[i, j] = float(word)
+                values[i, j] = float(plain_number(word))
             except ValueError:
                 hint = "give --labels if values are names"
                 raise BadValuesFile(f"{path}, line {number}: {word[:40]!r} is not a number; {hint}") from None

@@ -12,6 +12,7 @@ from geodesics import Mesh, MeshError, SurfacePoints
 from geodesics.arrays import Floats
 from geodesics.errors import Note
 from gmds.errors import LandmarkError
+from gmds.landmarks.files import Landmarks, paired
 from gmds.landmarks.placed import PlacedLandmarks
 from gmds.landmarks.snapping import called_by, snapped
 from gmds.landmarks.soft import SoftLandmarks
@@ -25,9 +26,10 @@ def check_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> tuple[Surface
     Parameters
     ----------
     landmarks : array_like, pair or SoftLandmarks
-        An array (k, 2) of vertex index pairs, or a pair (on source, on target) whose halves are vertex indices (k,),
-        positions in space (k, 3) that are moved to the closest surface point, rows (k, 4) of a face and three
-        barycentric weights, or `SurfacePoints`. Two nested lists of two indices each are read as two index pairs.
+        Two `Landmarks`, as files hold them, which names pair; an array (k, 2) of vertex index pairs; or a pair
+        (on source, on target) whose halves are vertex indices (k,), positions in space (k, 3) that are moved to the
+        closest surface point, rows (k, 4) of a face and three barycentric weights, or `SurfacePoints`. Two nested lists
+        of two indices each are read as two index pairs.
     source, target : Mesh
         The surfaces.
 
@@ -57,8 +59,12 @@ def place_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> PlacedLandmar
     tolerance: ArrayLike = 0.0
     if isinstance(landmarks, SoftLandmarks):
         landmarks, tolerance = landmarks.landmarks, landmarks.tolerance
-    for given, mesh, name in zip(_halves(landmarks), (source, target), ("source", "target"), strict=True):
-        sides.append(_place(given, mesh, name, notes))
+    called: tuple[Sequence[str], Sequence[str]] = (), ()
+    if isinstance(landmarks, (tuple, list)) and len(landmarks) == 2 and _are_named(landmarks):
+        landmarks, called = _both_have(*landmarks)
+    meshes, titles = (source, target), ("source", "target")
+    for given, mesh, name, names in zip(_halves(landmarks), meshes, titles, called, strict=True):
+        sides.append(_place(given, mesh, name, notes, names))
     on_source, on_target = sides
     if len(on_source) != len(on_target):
         raise LandmarkError(
@@ -73,6 +79,19 @@ def place_on(given: Any, mesh: Mesh, name: str = "surface", called: Sequence[str
     `called`: the names (k,) by which errors call them; else their rows.
     """
     return _place(given if isinstance(given, SurfacePoints) else _array(given), mesh, name, [], called)
+
+
+def _are_named(landmarks: Sequence[Any]) -> bool:
+    return all(isinstance(half, Landmarks) for half in landmarks)
+
+
+def _both_have(source: Landmarks, target: Landmarks) -> tuple[Any, tuple[Sequence[str], Sequence[str]]]:
+    """Landmarks as they are read from files, in one order, and their names."""
+    ours, theirs, alone = paired(source, target)
+    if alone:
+        message = f"{len(alone)} landmarks are on one surface only ({', '.join(alone[:5])})"
+        raise LandmarkError("E303", f"{message}; gmds.landmarks.files.paired gives those that both have")
+    return (ours.at, theirs.at), (ours.distinct_names, theirs.distinct_names)
 
 
 def _halves(landmarks: Any) -> tuple[Any, Any]:
@@ -91,6 +110,10 @@ def _halves(landmarks: Any) -> tuple[Any, Any]:
 
 
 def _array(values: Any) -> NDArray[Any]:
+    if isinstance(values, Landmarks):
+        if not values.defined.all():
+            raise LandmarkError("E300", f"landmarks without a place: {', '.join(values.missing[:5])}; leave them out")
+        values = values.at
     try:
         array = np.asarray(values)
     except ValueError as error:

@@ -33,7 +33,7 @@ def snapped(given: NDArray[Any], mesh: Mesh, name: str, notes: list[Note], calle
         raise LandmarkError(
             "E305",
             f"{called_by(called, worst)} lies {share[worst]:.1%} of the diagonal of the {name} off its surface "
-            f"(at most 5 %); {_advice(given, mesh)}",
+            f"(at most 5 %); {_advice(given, mesh, worst)}",
         )
     moved = np.flatnonzero(share > 1e-6)
     if len(moved):
@@ -50,8 +50,14 @@ def _off(points: SurfacePoints, given: NDArray[Any]) -> Floats:
     return np.asarray(np.linalg.norm(points.positions - given, axis=1) / diagonal)
 
 
-def _advice(given: NDArray[Any], mesh: Mesh) -> str:
-    """What may be the matter with positions off the surface: the other frame of 3D Slicer, or another mesh."""
+def _advice(given: NDArray[Any], mesh: Mesh, worst: int) -> str:
+    """What may be the matter with positions off the surface: a missing one, the other frame of 3D Slicer, or the mesh.
+
+    Programs write -1, 0, 9999 or the like three times for a landmark that is missing.
+    """
+    first = float(given[worst, 0])
+    if (given[worst] == first).all() and first == round(first):
+        return f"its coordinates are all {first:g}, as some programs write for one that is missing: write NA there"
     turned = given * np.array([-1.0, -1.0, 1.0])
     if _off(SurfacePoints.closest(mesh, turned), turned).max() <= FARTHEST_LANDMARK:
         return (

@@ -92,7 +92,7 @@ REFUSED: list[tuple[str, str, str | bytes, str, str]] = [
     ("F17", "negative.glb", glb(setting("accessors", 0, "count", value=-4)), "E209", "negative"),
     ("F17", "header.glb", glb()[:19], "E204", "19 bytes"),
     ("F17", "version.glb", glb().replace(b"glTF\2", b"glTF\1"), "E209", "version 2"),
-    ("F17", "points.glb", glb(setting("meshes", 0, "primitives", 0, "mode", value=0)), "E103", "no vertices"),
+    ("F17", "points.glb", glb(setting("meshes", 0, "primitives", 0, "mode", value=0)), "E104", "triangulated"),
     ("F17", "no_indices.glb", glb(lambda t: t["meshes"][0]["primitives"][0].pop("indices")), "E209", "4 corners"),
     ("F17", "sparse.glb", glb(setting("accessors", 0, "sparse", value={})), "E209", "malformed"),
     ("F17", "offset.glb", glb(lambda t: (one_view(t), t["accessors"][1].update(byteOffset=49))), "E209", "24 bytes"),

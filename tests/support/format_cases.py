@@ -6,9 +6,10 @@ import gzip
 
 from broken_files import REFUSED, TOLD
 from file_cases import OBJ, OFF, PLY, READ, STL, STL_BINARY, V_TEXT, binary_ply, glb, setting
+from odd_exporters import READ as ODD
 from other_formats import FREESURFER, FREESURFER_TEXT, NEURO, OTHERS, gifti, gltf, mirrored, vtk, vtp
 
-NAMED: dict[str, str | bytes] = {name: content for _, name, content in [*READ, *OTHERS, *NEURO]}
+NAMED: dict[str, str | bytes] = ODD | {name: content for _, name, content in [*READ, *OTHERS, *NEURO]}
 BROKEN: dict[str, str | bytes] = {name: content for _, name, content, *_ in [*REFUSED, *TOLD]}
 QUADS = "OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n4 0 1 2 3\n3 1 4 2\n"
 CONCAVE = "v 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\nv 2 0 0\nv 2 1 0\nf 2 3 4 5 6 1\n"
@@ -42,6 +43,7 @@ CASES: list[tuple[str, str, list[Case]]] = [
         *cases(("colours, normals and texture coordinates (ST, C, N in any order)", "nc.off"),
                ("counts glued to the keyword; lines that end anywhere", "glued.off"),
                ("comments, blank lines, any line ends, a byte order mark", "comments.off"),
+               ("no keyword, in a file called .off; a count a line", "no_keyword.off"),
                ("lines behind the last face", "trailing.off")),
         ("a vertex on no face without a position (nan)", "lost.off", LOST),
         *cases(("a vertex of a face without a position", "unknown0.off"), ("four coordinates (4OFF)", "four.off"),
@@ -54,14 +56,15 @@ CASES: list[tuple[str, str, list[Case]]] = [
                ("materials and groups (their names are not kept)", "more.obj"),
                ("colours behind positions", "colours.obj"),
                ("lines, points, curves before or between", "begins0.obj"),
-               ("lines continued by a backslash", "continued.obj"),
+               ("lines continued by a backslash", "continued.obj"), ("in UTF-16, as any text", "utf16.obj"),
                ("faces of one or two corners (left out)", "edges.obj")),
         ("negative indices", "negative.obj", OBJ.replace("f 1 2 3", "f -4 -3 -2")),
     ]),
     ("PLY", ".ply", [
         ("text", "a.ply", PLY),
         ("binary, either byte order, any types of numbers", "b.ply", binary_ply(">", "ushort", "uint", extra=True)),
-        *cases(("lists of varying length", "lists.ply"), ("triangle strips", "strips.ply"),
+        *cases(("text whose lines end anywhere", "flowing.ply"), ("lists of varying length", "lists.ply"),
+               ("triangle strips", "strips.ply"),
                ("other elements and properties (passed over)", "elements.ply"), ("bytes behind the data", "longer.ply"),
                ("indices that are not whole numbers", "index_float.ply"),
                ("faces of one or two corners (left out)", "edges.ply")),
@@ -70,7 +73,8 @@ CASES: list[tuple[str, str, list[Case]]] = [
     ("STL", ".stl", [
         ("text, of one solid or several", "two.stl", NAMED["two.stl"]),
         ("binary, also when it begins with `solid`", "binary.stl", STL_BINARY),
-        *cases(("`end solid`, `end loop`", "end_solid.stl"), ("bytes behind the data", "longer.stl"),
+        *cases(("binary, with a count of 0", "uncounted.stl"), ("text on one line", "one_line.stl"),
+               ("`end solid`, `end loop`", "end_solid.stl"), ("bytes behind the data", "longer.stl"),
                ("no `endsolid`", "open.stl")),
         ("cut off", "cut.stl", STL[:-20]),
     ]),
@@ -82,6 +86,7 @@ CASES: list[tuple[str, str, list[Case]]] = [
                ("skins and morph weights (the pose of the file; `gmds transfer --rig` carries them)", "skinned.glb")),
         ("nodes of negative scale", "mirrored.glb", glb(mirrored)),
         *cases(("images in other files (not opened)", "image.glb")),
+        ("points or lines alone", "points.glb", BROKEN["points.glb"]),
         ("compressed by Draco, or by meshopt", "draco.glb", glb(draco)),
         ("numbers in other files", "uri.glb", glb(setting("buffers", 0, "uri", value="a.bin"))),
     ]),

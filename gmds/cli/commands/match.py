@@ -36,7 +36,8 @@ def command(source: Path, target: Path, output: Path, as_json: bool, **options: 
       gmds match dog.ply wolf.off --landmarks dog.csv --landmarks wolf.csv
       gmds match half-dog.ply wolf.off --parts source -o half.npz
 
-    Meshes are OFF, OBJ, PLY, STL, GLB or TOSCA .vert/.tri files. The map is a .npz that numpy alone can read.
+    Meshes are OFF, OBJ, PLY, STL, GLB, glTF, VTK, VTP, GIFTI, FreeSurfer or TOSCA .vert/.tri files, packed by gzip or
+    not. The map is a .npz that numpy alone can read.
 
     Landmarks are one file for both surfaces, with two vertex numbers (from 0), six coordinates, or twice a face and
     three weights a line, and perhaps a tolerance behind them; or a map, for those it was made with; or, with the option

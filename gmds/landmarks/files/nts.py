@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from gmds.files.table import plain_number
 from gmds.landmarks.files.named_points import BadLandmarkFile, Landmarks, Space, Specimens, distinct
-from gmds.landmarks.files.reading import Rows, is_number, plain_number, position
+from gmds.landmarks.files.reading import Rows, is_number, position
 
 PARAMETERS = re.compile(r"1\s+(\d{1,9})(L?)\s+(\d{1,9})(L?)\s+(?:0|1\s+(\S+))(?:\s+dim\s*=\s*(\d+))?\s*", re.IGNORECASE)
 

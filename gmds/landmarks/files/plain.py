@@ -7,24 +7,28 @@ import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from gmds.files.table import plain_number
 from gmds.landmarks.files.named_points import BadLandmarkFile, Landmarks, Space, Specimens
-from gmds.landmarks.files.reading import Rows, is_no_place, is_number, plain_number, position, whole
+from gmds.landmarks.files.reading import Rows, is_no_place, is_number, position, whole
 from gmds.landmarks.files.table import parse_csv
 
 Columns = Mapping[str, Sequence[object]]
 
+COMMENTS = ("#", "//")  # CloudCompare's titles are one
 HEADS = ("x", "name", "label", "id", "landmark")  # first words of a line of titles
 IDAV_MISSING = [9999.0] * 3  # where IDAV Landmark, and Morpho after it, put what is missing
 
 
-def parse_pts(path: Path, text: str, _: Space) -> Landmarks:
+def parse_pts(path: Path, text: str, space: Space) -> Landmarks | Specimens:
     """Landmarks a line; a header of IDAV Landmark (`Version 1.0`, count) or of ibug (`version: 1`) is checked."""
     lines = [(number, line.split()) for number, line in enumerate(text.splitlines(), start=1) if line.strip()]
     count: int | None = None
     if lines and re.fullmatch(r"version:?", lines[0][1][0], re.IGNORECASE):
         count, lines = _below_header(path, lines)
     else:
-        lines = [(number, words) for number, words in lines if not words[0].startswith("#")]
+        lines = [(number, words) for number, words in lines if not words[0].startswith(COMMENTS)]
+        if lines and _is_table(" ".join(lines[0][1])):
+            return parse_csv(path, text, space)
     rows = Rows(path)
     for number, words in lines:
         named = len(words) == 4
@@ -46,14 +50,14 @@ def pts_text(landmarks: Landmarks, _: Space, __: Columns) -> str:
 
 def parse_points(path: Path, text: str, space: Space) -> Landmarks | Specimens:
     """Three coordinates a line and perhaps a name before or behind them; or a table, when commas or tabs part it."""
-    lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
+    lines = [line for line in text.splitlines() if line.strip() and not line.startswith(COMMENTS)]
     if lines and _is_table(lines[0]):
         return parse_csv(path, text, space)
     if lines and re.match(r"version", lines[0], re.IGNORECASE):
         return parse_pts(path, text, space)
     rows, counted = Rows(path), 0
     for number, line in enumerate(text.splitlines(), start=1):
-        words = line.split("#", 1)[0].split()
+        words = re.split("#|//", line, maxsplit=1)[0].split()
         if not words or (not rows.names and not counted and words[0].lower() in HEADS):
             continue
         if len(words) == 1 and not rows.names and not counted:

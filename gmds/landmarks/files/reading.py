@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gmds.files.table import NUMBER
+from gmds.files.table import NUMBER, plain_number
 from gmds.files.text import read_text
 from gmds.landmarks.files.named_points import BadLandmarkFile, Landmarks, Status
 
@@ -23,7 +23,7 @@ def landmark_text(path: Path) -> str:
     try:
         return read_text(path, BadLandmarkFile, LARGEST)
     except UnicodeDecodeError as error:
-        raise BadLandmarkFile(f"{path} is not UTF-8 text ({error})") from error
+        raise BadLandmarkFile(f"{path} is not UTF-8 text ({error}); save it as UTF-8") from error
 
 
 def is_number(word: str) -> bool:
@@ -34,12 +34,6 @@ def is_number(word: str) -> bool:
 def is_no_place(word: str) -> bool:
     """Whether a word stands for a number that is missing."""
     return word.strip().lower() in NOWHERE
-
-
-def plain_number(word: str) -> str:
-    """The word, or with a decimal point where it has one decimal comma."""
-    word = word.strip()
-    return word.replace(",", ".") if word.count(",") == 1 and "." not in word else word
 
 
 def position(path: Path, line: int, words: Sequence[str]) -> list[float] | None:

@@ -24,6 +24,7 @@ SCHEMA = (
 )
 FCSV_COLUMNS = "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID"
 FCSV_SPACES = {"LPS": "LPS", "RAS": "RAS", "0": "RAS", "1": "LPS"}  # numbers until 4.10
+OLDEST = re.compile(r"#\s*label:\s*x\s*,\s*y\s*,\s*z\s*,\s*sel\s*,\s*vis\s*", re.IGNORECASE)  # of 3D Slicer 3, in RAS
 NOWHERE: dict[str, Status] = {"undefined": "undefined", "missing": "missing", "preview": "undefined"}  # positionStatus
 
 
@@ -72,6 +73,8 @@ def parse_fcsv(path: Path, text: str, space: Space) -> Landmarks:
     rows, places = Rows(path), []
     for number, line in enumerate(text.splitlines(), start=1):
         if line.startswith("#"):
+            if OLDEST.fullmatch(line):
+                titles, given = ["label", "x", "y", "z", "sel", "vis"], given or "RAS"
             key, _, value = (part.strip() for part in line[1:].partition("="))
             if key.lower() == "coordinatesystem":
                 given = _fcsv_space(path, number, value, given)
@@ -107,6 +110,8 @@ def _read_markup(rows: Rows, where: str, markup: Any, space: Space) -> None:
 
     if not isinstance(markup, dict) or not isinstance(markup.get("controlPoints", []), list):
         refuse("no list of controlPoints")
+    if markup.get("type") == "ROI":  # a box, whose one control point is its middle
+        return
     given = markup.get("coordinateSystem", "LPS")
     if given not in SPACES:
         refuse(f"coordinateSystem is {given!r:.40}, not LPS or RAS")

@@ -9,10 +9,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from gmds.files.table import table_text, unguarded
+from gmds.files.table import delimiter, plain_number, table_text, unguarded
 from gmds.landmarks.files.named_points import SPACES, BadLandmarkFile, Landmarks, Space, Specimens, turned
-from gmds.landmarks.files.reading import Rows, is_no_place, is_number, plain_number, position, whole
-from gmds.landmarks.files.wide_table import is_wide, parse_wide
+from gmds.landmarks.files.reading import Rows, is_no_place, is_number, position, whole
+from gmds.landmarks.files.wide_table import columns_of_wide, parse_wide
 
 Columns = Mapping[str, Sequence[object]]
 
@@ -25,6 +25,8 @@ UNDEFINED = ("0", "false")
 MISSING = "NA"  # what R, pandas and we read as a number that is missing
 VERTICES = ("vertex", "index")
 BARYCENTRIC = ("face", "w0", "w1", "w2")
+ABOVE = re.compile(r"#|//|sep=.\s*$", re.IGNORECASE)  # comments, and what tells a spreadsheet what parts cells
+UNIT = re.compile(r"\s*(\([^()]*\)|\[[^\[\]]*\])\s*$")  # behind a title
 
 
 def parse_csv(path: Path, text: str, space: Space) -> Landmarks | Specimens:
@@ -33,11 +35,11 @@ def parse_csv(path: Path, text: str, space: Space) -> Landmarks | Specimens:
     if not table:
         return Rows(path).landmarks()
     first, cells = table[0]
-    headed = not (is_number(plain_number(cells[-1])) or is_no_place(cells[-1]))
+    headed = not (_is_place(cells[-1:]) or (len(cells) == 4 and _is_place(cells[:3])))
     width = len(cells)
-    if is_wide(cells, headed):
-        return parse_wide(path, table[headed:], width)
-    columns = _columns(path, first, cells) if headed else _usual_columns(path, first, width)
+    if wide := columns_of_wide(cells, headed):
+        return parse_wide(path, table[headed:], width, wide)
+    columns = _columns(path, first, cells) if headed else _usual_columns(path, first, cells)
     found: dict[str, Rows] = {}
     for line, row in table[headed:]:
         if len(row) != width:
@@ -81,28 +83,30 @@ def _place(path: Path, line: int, row: list[str], columns: Mapping[str, tuple[in
     return position(path, line, words)
 
 
+def _is_place(cells: Sequence[str]) -> bool:
+    """Whether cells hold numbers, or words for those that are missing."""
+    return all(is_number(plain_number(cell)) or is_no_place(cell) for cell in cells)
+
+
 def _table(path: Path, text: str) -> list[tuple[int, list[str]]]:
-    """Rows that are not empty, with their line; lines that begin with # are skipped above the table."""
+    """Rows that are not empty, with their line, without empty columns at the end; comments above it are skipped."""
     lines = text.splitlines(keepends=True)
-    skipped = next((i for i, line in enumerate(lines) if line.strip() and not line.startswith("#")), len(lines))
+    skipped = next((i for i, line in enumerate(lines) if line.strip() and not ABOVE.match(line)), len(lines))
     body = "".join(lines[skipped:])
     head = body.split("\n", 1)[0]
-    reader = csv.reader(io.StringIO(body), delimiter=_delimiter(head), strict=True)
+    reader = csv.reader(io.StringIO(body), delimiter=delimiter(head), strict=True)
     try:
-        return [(skipped + reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
+        table = [(skipped + reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
     except csv.Error as error:
         raise BadLandmarkFile(f"{path}, line {skipped + reader.line_num}: {error}") from error
-
-
-def _delimiter(line: str) -> str:
-    """What parts the cells of a line: a tab, else a semicolon unless there are more commas, which may be decimal."""
-    bare = re.sub('"[^"]*"', "", line)
-    return "\t" if "\t" in bare else ";" if bare.count(";") >= max(1, bare.count(",")) else ","
+    while table and len({len(row) for _, row in table}) == 1 and not any(row[-1].strip() for _, row in table):
+        table = [(line, row[:-1]) for line, row in table]
+    return table
 
 
 def _columns(path: Path, line: int, cells: list[str]) -> dict[str, tuple[int, ...]]:
     """Which columns hold what, by their titles."""
-    titles = [cell.strip().lower() for cell in cells]
+    titles = [UNIT.sub("", cell).strip().lower() for cell in cells]
     places = {key: _one_of(titles, words) for key, words in WORDS.items()}
     for axes in ("xyz", "lps", "ras"):
         if set(axes) <= set(titles):
@@ -124,8 +128,11 @@ def _one_of(titles: list[str], wanted: tuple[str, ...]) -> tuple[int, ...]:
     return next(((titles.index(title),) for title in wanted if title in titles), ())
 
 
-def _usual_columns(path: Path, line: int, width: int) -> dict[str, tuple[int, ...]]:
-    """Which columns hold what, by their number."""
+def _usual_columns(path: Path, line: int, cells: list[str]) -> dict[str, tuple[int, ...]]:
+    """Which columns hold what, by their number; a name stands before or behind a place."""
+    width = len(cells)
+    if width == 4 and not _is_place(cells[3:]):
+        return {"name": (3,), "position": (0, 1, 2)}
     usual: dict[int, dict[str, tuple[int, ...]]] = {
         1: {"vertex": (0,)},
         2: {"name": (0,), "vertex": (1,)},

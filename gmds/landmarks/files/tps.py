@@ -7,9 +7,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path, PureWindowsPath
 
+from gmds.files.table import plain_number
 from gmds.landmarks.files.named_points import BadLandmarkFile, Landmarks, Space, Specimens, distinct
 from gmds.landmarks.files.plain import words_of
-from gmds.landmarks.files.reading import Rows, is_number, plain_number, position, whole
+from gmds.landmarks.files.reading import Rows, is_number, position, whole
 
 LANDMARKS = ("LM3", "LM")
 NUMBERS = ("", "SCALE", "CURVES", "POINTS", "POINTS3", *LANDMARKS)  # keys of numbers, and coordinates themselves

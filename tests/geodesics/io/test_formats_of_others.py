@@ -192,7 +192,7 @@ REFUSED: list[tuple[str, str | bytes, str, str]] = [
     ("kind.vtp", vtp().replace(b"PolyData", b"ImageData"), "E203", "ImageData"),
     ("compressor.vtp", ODD, "E209", "vtkOddDataCompressor"),
     ("bomb.vtp", BOMB, "E209", "entities"),
-    ("utf16.vtp", BOMB.encode("utf-16"), "E203", "supported"),
+    ("utf16.vtp", BOMB.encode("utf-16"), "E209", "entities"),
     ("counts.vtp", VTP.replace('NumberOfPolys="4"', 'NumberOfPolys="5"'), "E204", "4 offsets"),
     ("points.vtp", VTP.replace('NumberOfPoints="4"', 'NumberOfPoints="5"'), "E204", "5 points"),
     ("word.vtp", VTP.replace('NumberOfPoints="4"', 'NumberOfPoints="x"'), "E200", "'x'"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import itertools
 import json
 from pathlib import Path
 from typing import Any
@@ -387,8 +388,9 @@ def test_pickled_and_structured_values_are_refused(tmp_path: Path) -> None:
 
 
 def test_text_with_and_without_a_header(tmp_path: Path) -> None:
-    for text in ("1\n2.5\n3\n", "height\n1\n2.5\n3\n", "vertex,h\n0,1\n1,2.5\n2,3\n"):
-        (tmp_path / "v.csv").write_text(text, encoding="utf-8")
+    tables = ("1\n2.5\n3\n", "height\n1\n2.5\n3\n", "vertex,h\n0,1\n1,2.5\n2,3\n", "vertex;h\n0;1\n1;2,5\n2;3\n")
+    for text, encoding in itertools.product(tables, ("utf-8", "utf-8-sig", "utf-16")):  # as spreadsheets write them
+        (tmp_path / "v.csv").write_text(text, encoding=encoding)
         assert read_values(tmp_path / "v.csv", 3).tolist() == [1, 2.5, 3]
     (tmp_path / "v.csv").write_text("left ear\n2\n3\n", encoding="utf-8")
     assert read_values(tmp_path / "v.csv", 3, labels=True).tolist() == ["left ear", "2", "3"]

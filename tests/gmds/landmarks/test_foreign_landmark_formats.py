@@ -13,6 +13,8 @@ from landmark_texts import AVIZO, HEAD, markups, written
 from geodesics import Mesh, SurfacePoints, write_mesh
 from gmds.cli import main
 from gmds.correspondence import Correspondence
+from gmds.errors import LandmarkError
+from gmds.landmarks.checking import check_landmarks
 from gmds.landmarks.files import BadLandmarkFile, read_landmarks, read_specimens
 from gmds.landmarks.files.specimens import belonging_to
 
@@ -61,11 +63,28 @@ NAN = None
         ("a.tps", "LM3=2 # two\n1 2 3 # nose\nNA NA NA\nID=a#1\n", ("1", "2"), [[1, 2, 3], NAN]),
         ("a.tps", "# by hand\nCOMMENT=left\nLM3=1\n1,5 2 3\n\nVARIABLES=a\nSCALE=2,0\n", ("1",), [[3, 4, 6]]),
         ("a.tps", "LM=1\n1 2 3\nCURVES=1\nPOINTS=1\n4 5 6\n", ("1", "2"), [[1, 2, 3], [4, 5, 6]]),
+        ("a.pts", "1,2,3\n4,5,6\n", ("1", "2"), [[1, 2, 3], [4, 5, 6]]),
+        ("a.txt", "//X Y Z Label\n1.0 2.0 3.0 nose\n", ("nose",), [[1, 2, 3]]),
+        ("a.txt", "1.0,2.0,3.0,nose\n", ("nose",), [[1, 2, 3]]),
+        ("a.csv", "1.0,2.0,3.0,nose\n", ("nose",), [[1, 2, 3]]),
+        ("a.csv", "sep=;\nname;x;y;z\nnose;1;2;3\n", ("nose",), [[1, 2, 3]]),
+        ("a.csv", "name,x (mm),y [mm],z(mm),\nnose,1,2,3,\n", ("nose",), [[1, 2, 3]]),
+        ("a.csv", "ID;1_X;1_Y;1_Z;2_X;2_Y;2_Z\nfox;1;2;3;4;5;6\n", ("1", "2"), [[1, 2, 3], [4, 5, 6]]),
+        ("a.csv", "id,LM 1 X,LM 1 Y,LM 1 Z,LM 2 X,LM 2 Y,LM 2 Z\nfox,1,2,3,4,5,6\n", ("LM 1", "LM 2"),
+         [[1, 2, 3], [4, 5, 6]]),
+        ("a.csv", "id,x1,x2,y1,y2,z1,z2\nfox,1,4,2,5,3,6\n", ("1", "2"), [[1, 2, 3], [4, 5, 6]]),
+        ("a.csv", "id,sex,z1,y1,x1,x2,y2,z2,age\nfox,m,3,2,1,4,5,6,7\n", ("1", "2"), [[1, 2, 3], [4, 5, 6]]),
+        ("a.csv", "id,nose.x,nose.y,nose.z,ear.x,ear.y,ear.z\nfox,1,2,3,4,5,6\n", ("nose", "ear"),
+         [[1, 2, 3], [4, 5, 6]]),
+        ("a.fcsv", "# version = 2\n# label: x,y,z,sel,vis\nP1,-1,-2,3,1,1\n", ("P1",), [[1, 2, 3]]),
+        ("a.json", '{"markups": [{"type": "ROI", "controlPoints": [{"position": [0, 0, 0]}]}, '
+         '{"controlPoints": [{"label": "F", "position": [1, 2, 3]}]}]}', ("F",), [[1, 2, 3]]),
     ],
 )  # fmt: skip
 def test_what_others_write(tmp_path: Path, name: str, text: str, names: tuple[str, ...], places: list[object]) -> None:
-    for content in (text, "\ufeff" + text.replace("\n", "\r\n"), text.rstrip("\n")):
-        found = read_landmarks(written(tmp_path, name, content))
+    for content in (text, "\ufeff" + text.replace("\n", "\r\n"), text.rstrip("\n"), text.encode("utf-16")):
+        (tmp_path / name).write_bytes(content if isinstance(content, bytes) else content.encode())
+        found = read_landmarks(tmp_path / name)
         assert found.names == names
         assert [at.tolist() if there else NAN for at, there in zip(found.at, found.defined, strict=True)] == places
 
@@ -88,6 +107,22 @@ def test_several_specimens(tmp_path: Path, name: str, text: str) -> None:
         read_landmarks(path)
     with pytest.raises(BadLandmarkFile, match="no specimen 'dog'; it has fox, cow"):
         read_landmarks(path, specimen="dog")
+
+
+@pytest.mark.parametrize(
+    "header", ["id,x1,x2,y1,y2,z1,w2", "id,x1,y1,z1,x1,y1,z1", "id,a,b,c,d,e,f", "id,x1,y1,z1,x2,y2,q"]
+)
+def test_titles_that_do_not_say_which_coordinate_is_which_are_refused(tmp_path: Path, header: str) -> None:
+    with pytest.raises(BadLandmarkFile, match="a header needs the columns"):
+        read_landmarks(written(tmp_path, "a.csv", header + "\nfox,1,2,3,4,5,6\n"))
+
+
+@pytest.mark.parametrize("absent", ["-1 -1 -1", "-999 -999 -999", "0 0 0"])
+def test_a_place_that_stands_for_none_is_named(tmp_path: Path, absent: str) -> None:
+    mesh = Mesh(np.add(bumpy_sphere(2).vertices, (7, 5, 3)), bumpy_sphere(2).faces)
+    marks = read_landmarks(written(tmp_path, "a.tps", f"LM3=2\n{' '.join(map(str, mesh.vertices[3]))}\n{absent}\n"))
+    with pytest.raises(LandmarkError, match=rf"E305: .*all {absent.split()[0]}, as some programs write for one that"):
+        check_landmarks((marks, marks), mesh, mesh)
 
 
 def test_one_surface_has_no_specimens(tmp_path: Path) -> None:

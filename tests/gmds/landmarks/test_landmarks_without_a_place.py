@@ -14,6 +14,7 @@ from geodesics import Mesh, SurfacePoints, write_mesh
 from gmds.cli import main
 from gmds.correspondence import Correspondence
 from gmds.errors import LandmarkError
+from gmds.landmarks.checking import check_landmarks
 from gmds.landmarks.files import ENDINGS, BadLandmarkFile, Landmarks, paired, read_landmarks, write_landmarks
 from gmds.landmarks.transfer import carry_landmarks
 from gmds.maps.point_map import MatchStatus
@@ -143,3 +144,17 @@ def test_landmarks_in_the_other_frame_are_told_by_name(folder: Path) -> None:
     assert "with the signs of x and y changed all lie on it" in done.stderr and "--space RAS" in done.stderr
     with pytest.raises(BadLandmarkFile, match="only read; landmarks are written to"):
         write_landmarks(folder / "c.nts", MARKS)
+
+
+def test_landmarks_of_files_are_taken_as_they_are_and_named_in_errors() -> None:
+    theirs = Landmarks(("tail", "nose"), TARGET.vertices[[60, 3]])
+    with pytest.raises(LandmarkError, match=r"E303: 1 landmarks are on one surface only \(lost\); .*paired"):
+        check_landmarks((MARKS, theirs), SHAPE, TARGET)
+    both = check_landmarks((MARKS[MARKS.defined][[0, 2]], theirs), SHAPE, TARGET)
+    assert np.allclose(both[0].positions * 3, both[1].positions)
+    with pytest.raises(LandmarkError, match="E305: landmark 'tail' lies"):
+        check_landmarks(
+            (MARKS[[0, 4]], Landmarks(("nose", "tail"), TARGET.vertices[[3, 60]] * [[1], [1.5]])), SHAPE, TARGET
+        )
+    with pytest.raises(LandmarkError, match="E300: landmarks without a place: unset, gone"):
+        check_landmarks((MARKS, np.arange(5)), SHAPE, TARGET)
