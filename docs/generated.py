@@ -11,11 +11,17 @@ import click
 
 import geodesics.check
 import geodesics.io
+import gmds.appearance.keeping
 import gmds.matching.notes
 from gmds.cli import main
 
 WIDTH = 100
-NOTES = {"on a mesh": geodesics.check, "on a file": geodesics.io, "on a match": gmds.matching.notes}
+NOTES = {
+    "on a mesh": geodesics.check,
+    "on a file": geodesics.io,
+    "on a match": gmds.matching.notes,
+    "on a transfer": gmds.appearance.keeping,
+}
 
 
 def every_command() -> str:

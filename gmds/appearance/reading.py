@@ -17,6 +17,7 @@ from geodesics.extras import how_to_install
 from geodesics.io.contents import Contents
 from geodesics.io.opening import read_bytes
 from geodesics.io.sniffing import sniff
+from gmds.appearance.names import FaceNames
 from gmds.appearance.surfaces import Shown, shown
 
 KINDS = ("obj", "ply", "glb", "gltf")
@@ -42,12 +43,15 @@ class Look:
         What the coordinates lay on the surface.
     notes : tuple of str
         What of the file is not kept.
+    names : FaceNames, optional
+        Objects, groups and materials, by face.
     """
 
     colours: NDArray[np.uint8] | None = None
     uv: Floats | None = None
     image: Any = None
     notes: tuple[str, ...] = ()
+    names: FaceNames | None = None
 
 
 def read_look(path: Path, mesh: Mesh, texture: Path | None = None) -> Look:
@@ -88,17 +92,17 @@ def read_look(path: Path, mesh: Mesh, texture: Path | None = None) -> Look:
     contents = found.contents
     refuse_other_faces(contents, mesh, path)
     notes: tuple[str, ...] = ()
-    if len(found.materials) > 1:
+    if len(found.materials) > 1 and found.uv is not None:
         named = ", ".join(found.materials[:5])
-        notes = (f"{path} has {len(found.materials)} materials ({named}), which become one with one image",)
+        notes = (f"{path} has {len(found.materials)} materials ({named}), which get one image",)
     if found.uv is not None:
-        return Look(None, found.uv, found.image if texture is None else _image(texture), notes)
+        return Look(None, found.uv, found.image if texture is None else _image(texture), notes, found.names)
     if found.colours is not None:
         colours = np.full((mesh.n_vertices, found.colours.shape[1]), 255, dtype=np.uint8)
         colours[mesh.faces] = found.colours[contents.triangles]
         transparent = colours.shape[1] == 4 and bool((colours[:, 3] < 255).any())
-        return Look(colours if transparent else colours[:, :3], notes=notes)
-    return Look(notes=notes)
+        return Look(colours if transparent else colours[:, :3], names=found.names)
+    return Look(names=found.names)
 
 
 def refuse_other_faces(contents: Contents, mesh: Mesh, path: Path) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +16,7 @@ from geodesics.io.obj import read_obj, statements
 from geodesics.io.ply import read_columns, read_ply
 from geodesics.io.ply_header import Element, read_header
 from geodesics.io.text import numbers, whole
+from gmds.appearance.names import FaceNames, names_in_obj, names_of_parts
 from gmds.appearance.scenes import scene_look
 
 # Names of texture coordinates of a vertex in a PLY file, by who writes them: Blender, MeshLab, Open3D and others.
@@ -33,6 +34,7 @@ class Shown:
     uv: Floats | None = None
     image: Any = None
     materials: tuple[str, ...] = ()
+    names: FaceNames | None = None
 
 
 def shown(data: bytes, kind: str, path: Path) -> Shown:
@@ -40,31 +42,32 @@ def shown(data: bytes, kind: str, path: Path) -> Shown:
     readers: dict[str, Callable[[bytes, Path], Shown]] = {"obj": _obj, "ply": _ply}
     if kind in readers:
         return readers[kind](data, path)
-    return Shown(*scene_look(data, path))
+    found = Shown(*scene_look(data, path))
+    return replace(found, names=names_of_parts(found.contents))
 
 
 def _obj(data: bytes, path: Path) -> Shown:
     contents = read_obj(data, path)
-    vertex_rows, uv_rows, at, materials = [], [], [], []
+    vertex_rows, uv_rows, at = [], [], []
     for row in statements(data, path):
         word = row.words[0]
         if word == "v":
             vertex_rows.append(row)
         elif word == "vt":
             uv_rows.append(row)
-        elif word == "usemtl":
-            materials.append(" ".join(row.words[1:]))
         elif word in ("f", "fo"):
             at += [_texture_corner(corner, len(uv_rows), f"{path}, line {row.line}") for corner in row.words[1:]]
-    names = tuple(dict.fromkeys(materials))
+    names = names_in_obj(data, path, contents)
+    materials = () if names is None else names.materials
     used = np.array(at, dtype=np.int64)
     if (used >= 0).any() and (used < len(uv_rows)).all() and contents.slots is not None:
         places = np.vstack([numbers(uv_rows, 1, path, 2), np.zeros(2)])  # -1, the last, is none
-        return Shown(contents, uv=places[used[contents.slots]], materials=names)
+        return Shown(contents, uv=places[used[contents.slots]], materials=materials, names=names)
     if vertex_rows and all(len(row.words) in (7, 8) for row in vertex_rows):
         values = numbers(vertex_rows, len(vertex_rows[0].words) - 3, path)
-        return Shown(contents, _as_bytes(values, 255.0 if values.max(initial=0) > 1 else 1.0), materials=names)
-    return Shown(contents, materials=names)
+        colours = _as_bytes(values, 255.0 if values.max(initial=0) > 1 else 1.0)
+        return Shown(contents, colours, materials=materials, names=names)
+    return Shown(contents, materials=materials, names=names)
 
 
 def _texture_corner(corner: str, so_far: int, place: str) -> int:

@@ -15,6 +15,7 @@ from geodesics import Mesh
 from geodesics.io import atomic_write
 from geodesics.io.precision import offset
 from geodesics.io.vtp_writing import encode_vtp
+from gmds.appearance.names import FaceNames, named_faces
 from gmds.appearance.polygons import Polygons, as_triangles, with_coordinates
 from gmds.appearance.reading import BadLook, Look
 
@@ -31,8 +32,8 @@ def write_look(
     ----------
     path : Path
         The ending names the format. .obj: colours behind positions, or texture coordinates with a .mtl and a .png
-        beside it. .glb: colours, or texture coordinates and the image, with vertices doubled along seams, as the
-        format asks for. .ply: colours and values. .vtp (ParaView): values, and colours as one of them.
+        beside it; names of faces. .glb: colours, or texture coordinates and the image, with vertices doubled along
+        seams, as the format asks for. .ply: colours and values. .vtp (ParaView): values, and colours as one of them.
     mesh : Mesh
         Of n vertices.
     look : Look
@@ -85,28 +86,35 @@ def _obj(path: Path, mesh: Mesh, look: Look, polygons: Polygons) -> dict[Path, b
         rows = [f"{row} {' '.join(map(repr, colour))}" for row, colour in zip(rows, colours, strict=True)]
     vertices = [f"v {row}" for row in rows]
     corners = (polygons.corners + 1).tolist()
+    libraries = [] if look.names is None else [f"mtllib {name}" for name in look.names.libraries]
     if polygons.uv is None:
-        return {path: _lines(vertices, _face_lines(polygons, list(map(str, corners))))}
+        return {path: _lines(libraries, vertices, _face_lines(polygons, list(map(str, corners)), look.names))}
     places, index = np.unique(polygons.uv, axis=0, return_inverse=True)
     numbered = zip(corners, (index.ravel() + 1).tolist(), strict=True)
-    faces = _face_lines(polygons, [f"{v}/{t}" for v, t in numbered])
+    names = look.names
+    if look.image is not None and (names is None or not names.materials):
+        names = FaceNames((("", "", "carried"),), np.zeros(mesh.n_faces, dtype=np.int64))
+    faces = _face_lines(polygons, [f"{v}/{t}" for v, t in numbered], names)
     coordinates = ["vt " + " ".join(map(repr, row)) for row in places.tolist()]
     if look.image is None:
-        return {path: _lines(vertices, coordinates, faces)}
+        return {path: _lines(libraries, vertices, coordinates, faces)}
     name = re.sub(r"\s", "_", path.stem)  # names with blanks are not read by all
     material, image = path.with_name(f"{name}.mtl"), path.with_name(f"{name}.png")
     head = [f"mtllib {material.name}"]
-    about = ["newmtl carried", "Kd 1 1 1", f"map_Kd {image.name}"]
+    used = names.materials if names is not None else ()
+    about = [line for each in used for line in (f"newmtl {each}", "Kd 1 1 1", f"map_Kd {image.name}")]
     return {
         image: _png(look.image),
         material: _lines(about),
-        path: _lines(head, vertices, coordinates, ["usemtl carried"], faces),
+        path: _lines(head, vertices, coordinates, faces),
     }
 
 
-def _face_lines(polygons: Polygons, corners: list[str]) -> list[str]:
+def _face_lines(polygons: Polygons, corners: list[str], names: FaceNames | None) -> list[str]:
     ends = np.cumsum(polygons.sizes).tolist()
-    return ["f " + " ".join(corners[start:end]) for start, end in zip([0, *ends], ends, strict=False)]
+    lines = ["f " + " ".join(corners[start:end]) for start, end in zip([0, *ends], ends, strict=False)]
+    triangles = polygons.sizes - 2
+    return lines if names is None else [*named_faces(names, np.cumsum(triangles) - triangles, lines)]
 
 
 def _lines(*blocks: list[str]) -> bytes:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from geodesics.arrays import Floats, Integers
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
+from gmds.appearance.names import faces_under
 from gmds.appearance.seams import carry_uv
 from gmds.characters.scene import Scene, read_scene
 from gmds.characters.skeleton import fitted
@@ -114,8 +115,7 @@ def _piece_of_faces(scene: Scene, answer: PointMap) -> Integers:
     """The piece (m,) of each face of the source: that where its middle goes."""
     if len(scene.pieces) == 1:
         return np.zeros(answer.source.n_faces, dtype=np.int64)
-    middle = answer.points.positions[answer.source.faces].mean(axis=1)
-    return scene.piece_of_face[SurfacePoints.closest(answer.target, middle).face]
+    return scene.piece_of_face[faces_under(answer)]
 
 
 def _shapes(scene: Scene, answer: PointMap, points: SurfacePoints) -> dict[int, Floats]:

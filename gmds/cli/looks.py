@@ -24,13 +24,15 @@ def is_scene(file: Path) -> bool:
     return sniff(read_bytes(file), file) in ("glb", "gltf")
 
 
-def tell_what_is_lost(file: Path, *, materials: bool = False, rig: bool = False, polygons: bool = True) -> None:
-    """What of a file is not carried, if `materials`, or `materials` and `rig`, or `polygons` are."""
-    from gmds.appearance.keeping import not_kept
+def tell_what_is_lost(
+    file: Path, *, materials: bool = False, names: bool = False, rig: bool = False, polygons: bool = True
+) -> None:
+    """What of a file is not carried, if `materials`, or `materials` and `rig`, or `names`, or `polygons` are."""
+    from gmds.appearance.keeping import lost_note, not_kept
 
-    if lost := not_kept(file, materials=materials, rig=rig, polygons=polygons):
+    if lost := not_kept(file, materials=materials, names=names, rig=rig, polygons=polygons):
         hint = "; --rig carries bones and shapes" if materials and not rig and "bones and their weights" in lost else ""
-        note(f"not carried from {file}: {', '.join(lost)}{hint}")
+        note(str(lost_note(file, lost, hint)))
 
 
 def tell_what_is_rounded(answer: Correspondence, output: Path, *, centered: bool) -> None:
@@ -61,18 +63,24 @@ def look_carried(
     answer: Correspondence, file: Path, texture: Path | None, output: Path, polygons: Polygons | None
 ) -> dict[str, Any]:
     """Colours or texture of a file of the target, to a mesh with these faces; what was done."""
-    from gmds.appearance import Look, carry_uv, read_look, write_look
+    from gmds.appearance import Look, carry_names, carry_uv, read_look, write_look
 
     look = read_look(file, answer.target, texture)
-    for told in look.notes:
+    for told in look.notes if look.image is not None or output.suffix.lower() != ".obj" else ():
         note(told)
+    names = carry_names(answer, look.names) if look.names is not None and output.suffix.lower() == ".obj" else None
+    result: dict[str, Any] = {} if names is None else {"materials": list(names.materials)}
+    if names is not None and names.libraries and look.image is None:
+        note(f"{', '.join(names.libraries)} is named in {output.name} and not copied; lay it beside")
     if look.uv is not None:
         uv, across = carry_uv(answer, look.uv)
-        files = write_look(output, answer.source, Look(uv=uv, image=look.image), polygons=polygons)
+        files = write_look(output, answer.source, Look(uv=uv, image=look.image, names=names), polygons=polygons)
         if look.image is None:
             note(f"{file} has no image inside; give it with --texture")
-        return {"carried": "texture", "files": [str(file) for file in files], "faces_on_seams": int(across.sum())}
-    if look.colours is None:
+        result |= {"carried": "texture", "files": [str(file) for file in files]}
+        return result | {"faces_on_seams": int(across.sum())}
+    if look.colours is None and names is None:
         raise click.UsageError(f"{file} has neither colours nor texture coordinates; give --values")
-    write_look(output, answer.source, Look(colours=answer.transfer(look.colours)), polygons=polygons)
-    return {"carried": COLOURS}
+    colours = None if look.colours is None else answer.transfer(look.colours)
+    write_look(output, answer.source, Look(colours=colours, names=names), polygons=polygons)
+    return result | {"carried": "names" if colours is None else COLOURS}

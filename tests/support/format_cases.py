@@ -53,7 +53,7 @@ CASES: list[tuple[str, str, list[Case]]] = [
         ("triangles", "a.obj", OBJ),
         ("concave polygons", "concave.obj", CONCAVE),
         *cases(("texture coordinates and normals (kept by `gmds transfer`)", "texture.obj"),
-               ("materials and groups (their names are not kept)", "more.obj"),
+               ("materials and groups (names kept by `gmds transfer` to .obj)", "more.obj"),
                ("colours behind positions", "colours.obj"),
                ("lines, points, curves before or between", "begins0.obj"),
                ("lines continued by a backslash", "continued.obj"), ("in UTF-16, as any text", "utf16.obj"),

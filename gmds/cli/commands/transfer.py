@@ -76,7 +76,8 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
 
     The output is an array (.npy), a table (.csv), or the source with the values on its vertices: .ply and .vtp keep
     all of them (words by number, which is told), .obj and .glb colours. Without --values the look of the target's file
-    is carried: its vertex colours (.ply, .obj, .glb), or its texture, to an .obj with a .mtl and a .png, or to a .glb.
+    is carried: its vertex colours (.ply, .obj, .glb), or its texture, to an .obj with a .mtl and a .png, or to a .glb;
+    to an .obj also the names of objects, groups and materials.
     From .glb to .glb parts and materials are carried with their names and images; with --rig so are the skeleton, moved
     into the source, weights (four to a vertex at most; --most) and shapes to morph to. What is not carried is told.
     --kind weights carries weights of bones from a table.
@@ -118,7 +119,8 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
         result |= _carry_values(answer, kind, output, polygons, options)
     if is_mesh:
         tell_what_is_lost(source, polygons=output.suffix.lower() != ".glb")
-        tell_what_is_lost(look, materials=kept, rig=kept and options["rig"])
+        named = output.suffix.lower() == ".obj" and options["values"] is None
+        tell_what_is_lost(look, materials=kept, names=named, rig=kept and options["rig"])
         tell_what_is_rounded(answer, output, centered=not kept)
     emit({**result, **valid_count(answer, as_json)}, as_json)
 

@@ -15,6 +15,7 @@ import gmds.matching.notes
 from geodesics import Mesh
 from geodesics.check import check
 from geodesics.topology.invariants import Invariants, invariants
+from gmds.appearance import keeping
 from gmds.maps.point_map import MatchStatus
 from gmds.matching.notes import match_notes
 
@@ -27,7 +28,7 @@ def codes(mesh: Mesh) -> set[str]:
 
 def test_every_note_is_documented() -> None:
     used = {code for path in ROOT.glob("g*/**/*.py") for code in re.findall(r'"(W\d{3})"', path.read_text("utf-8"))}
-    tables = f"{geodesics.check.__doc__}{geodesics.io.__doc__}{gmds.matching.notes.__doc__}"
+    tables = f"{geodesics.check.__doc__}{geodesics.io.__doc__}{gmds.matching.notes.__doc__}{keeping.__doc__}"
     assert used == set(re.findall(r"^\| (W\d{3}) \|", tables, re.MULTILINE))
 
 
