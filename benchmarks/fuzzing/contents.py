@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from file_cases import OBJ_V, READ
 from generated_shapes import bumpy_sphere, icosphere
+from odd_exporters import READ as ODD
 from other_formats import NEURO, OTHERS
 
 from geodesics import SurfacePoints
@@ -33,9 +34,16 @@ POLYGONS = "v 1 2 0\nv 0 2 0\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0.1\nv 3 3 3\nf 1
 LISTED = json.dumps([{"name": "a", "source": "s/a.off", "target": "s/b.off", "truth": "a.npz", "group": "self"}])
 SPECIMENS = {
     ".tps": ("LM3=2\n1 2 3\nNA NA NA\nID=fox\nSCALE=0.5\n\nLM3=2\n1 2 3\n4 5 6\nIMAGE=cow.ply\n",),
-    ".csv": ("ID,X1,Y1,Z1,X2,Y2,Z2\nfox,1,2,3,4,5,6\ncow,1,2,3,NA,NA,NA\n", "specimen;name;x;y;z\nfox;a;1,5;2;3\n"),
+    ".csv": (
+        "ID,X1,Y1,Z1,X2,Y2,Z2\nfox,1,2,3,4,5,6\ncow,1,2,3,NA,NA,NA\n",
+        "specimen;name;x;y;z\nfox;a;1,5;2;3\n",
+        "id,sex,x1,x2,y1,y2,z1,z2,\nfox,m,1,4,2,5,3,6,\n",
+        "sep=;\nid;nose.x;nose.y;nose.z;a1.x;a1.y;a1.z\nfox;1;2;3;4;5;6\n",
+    ),
+    ".fcsv": ("# version = 2\n# label: x,y,z,sel,vis\nP1,1,2,3,1,1\nP2,4,5,6,1,1\n",),
+    ".pts": ("1,2,3\n4,5,6\n", "# by hand\na;1,5;2;3\n"),
     ".nts": ("1 2L 6 1 -9 dim=3\nfox cow\n1 2 3 4 5 6\n1 2 3 -9 -9 -9\n", "1 2L 3 0 dim=3\na b\n1 2 3\n4 5 6\n"),
-    ".txt": ("2\n1 2 3\n4,5 5 6e-1\n", "name x y z\na 1 2 3\nb NA NA NA\n"),
+    ".txt": ("2\n1 2 3\n4,5 5 6e-1\n", "name x y z\na 1 2 3\nb NA NA NA\n", "//X Y Z Label\n1 2 3 a\n", "1,2,3,a\n"),
     ".landmarkAscii": (
         "# Avizo 3D ASCII 2.0\ndefine Markers 2\nMarkers { float[3] Coordinates } @1\n@1\n1 2 3\n4 5 6e0\n",
     ),
@@ -65,6 +73,11 @@ def of_cases(*names: str) -> Callable[[], Contents]:
     """Legal files of the tests, by their name."""
     by_name = {name: content for _, name, content in [*READ, *OTHERS, *NEURO]}
     return of_text(*(by_name[name] for name in names))
+
+
+def habits(ending: str) -> Callable[[], Contents]:
+    """Sound files of that ending as other programs write them, unpacked."""
+    return of_text(*(content for name, content in ODD.items() if name.endswith(ending)))
 
 
 def written(name: str, write: Callable[[Path], object]) -> bytes:

@@ -25,6 +25,7 @@ from benchmarks.fuzzing.contents import (
     UV,
     Contents,
     arrays,
+    habits,
     maps,
     marks,
     member,
@@ -169,6 +170,10 @@ MESHES: Mapping[str, Target] = {
     "polygons": Target(read_mesh, "p.obj", of_text(POLYGONS), _mesh_holds),
     "packed by gzip": Target(read_mesh, "a.off.gz", of_cases("a.off.gz"), _mesh_holds),
     "inside gzip": Target(read_mesh, "b.ply.gz", of_text(PLY), _mesh_holds, gzip.compress),
+    **{
+        f"habits of programs, {ending}": Target(read_mesh, f"h{ending}", habits(ending), _mesh_holds)
+        for ending in (".ply", ".obj", ".off", ".stl", ".vtk", ".glb")
+    },
     "TOSCA": Target(read_mesh, "a.tri", of_text(_FACES, "1 2 3\n1 3 4\n"), _mesh_holds, beside={"a.vert": V_TEXT}),
     "measured surface": Target(read_surface, "s.npz", surfaces),
     "colours, .obj": Target(_look, "a.obj", of_cases("colours.obj", "texture.obj", "more.obj")),
@@ -199,7 +204,9 @@ TEXTS: Mapping[str, Target] = {
     "landmark pairs": Target(read_marks, "a.txt", of_text("0 0\n5, 5  # nose\n", "0 0 1; 2.5 1e-3 -7\n")),
     "pair list": Target(read_list, "a.txt", of_text("a.off,b.off\nb.off, c.off\n", "# all\na.off\nb.off\n")),
     "settings": Target(read_settings, "a.toml", of_text(SETTINGS), _settings_hold),
-    "values, .csv": Target(_values, "a.csv", of_text("value\n1\n2.5\n-3\n4e5\n", "0\n1\n2\n3\n")),
+    "values, .csv": Target(
+        _values, "a.csv", of_text("value\n1\n2.5\n-3\n4e5\n", "0\n1\n2\n3\n", "1;2,5\n2;3\n3;4\n4;5\n")
+    ),
     "values, .txt": Target(_labels, "a.txt", of_text("a 1\nb 2\n\n\xe9 3\nd 4\n", "0\n1\n2\n3\n")),
     "values, .npy": Target(_values, "a.npy", arrays(only=np.arange(8.0).reshape(4, 2))),
     "truth, .vts": Target(read_vts, "t.vts", of_text("1\n2\n30\n", "7\n")),
