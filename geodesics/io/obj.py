@@ -40,9 +40,9 @@ def read_obj(data: bytes, path: Path) -> Contents:
     return Contents(vertices, triangles, notes, slots=slots, polygons=(sizes, flat))
 
 
-def statements(data: bytes, path: Path) -> Iterator[Row]:
-    """The lines of the file, those that a backslash continues made one."""
-    return rows(re.sub(rb"\\(\r\n|\n|\r)", b"  ", data), path)
+def statements(data: bytes, path: Path, comment: str | None = "#") -> Iterator[Row]:
+    """The lines of the file, those that a backslash continues made one; names may hold the mark of a comment."""
+    return rows(re.sub(rb"\\(\r\n|\n|\r)", b"  ", data), path, comment)
 
 
 def _corners(row: Row, defined: int, n_vertices: int, path: Path) -> list[int]:

@@ -48,7 +48,7 @@ def names_in_obj(data: bytes, path: Path, contents: Contents) -> FaceNames | Non
     now, libraries = {"o": "", "g": "", "usemtl": ""}, []
     called: dict[tuple[str, str, str], int] = {}
     number = []
-    for row in statements(data, path):
+    for row in statements(data, path, comment=None):  # "Material #25" is a name
         word = row.words[0]
         if word in now:
             now[word] = _text(row.words[1:])

@@ -23,7 +23,7 @@ from gmds.matching.large_surfaces import CoarseCopies
 from gmds.matching.notes import image_notes, match_notes
 from gmds.matching.part_answers import PARTS, Parts, likelier_part
 from gmds.matching.result import correspondence_of
-from gmds.matching.several_bodies import match_bodies
+from gmds.matching.several_bodies import beyond, incomplete, match_bodies
 from gmds.matching.steps import embedded, registered
 from gmds.mds.losses import LeastSquares, Loss
 from gmds.parts.handedness import Image
@@ -155,6 +155,8 @@ def match(  # noqa: PLR0913 - the signature is a promise
     notes = match_notes(measured.original, facing.original, answer.status, of_a_part=of_a_part)
     notes += [] if image is None else image_notes(image, taken=orientation != "preserve")
     notes += cleaning_notes(*whole)
+    if more := beyond(bodies, whole):
+        answer, notes = replace(answer, status=incomplete(answer.status)), [*notes, *more]
     if placed is not None:
         answer, missed = placed.applied(answer)
         notes += [*placed.notes, *missed]

@@ -13,11 +13,12 @@ from geodesics import SurfacePoints
 from geodesics.arrays import Integers
 from geodesics.errors import Note
 from geodesics.repair.repairing import inverse_index
+from geodesics.topology.components import component_areas
 from gmds.correspondence import Correspondence
 from gmds.landmarks.placed import PlacedLandmarks
 from gmds.landmarks.soft import SoftLandmarks
 from gmds.maps.point_map import MatchStatus
-from gmds.matching.bodies import Body, matched_bodies
+from gmds.matching.bodies import BODY, MOST_BODIES, Body, matched_bodies
 from gmds.matching.clean_copies import cleaning_notes, on_given
 from gmds.surface.measured import Surface
 
@@ -45,15 +46,35 @@ def match_bodies(
     answer, alone, without = matched_bodies(*bodies, whole, each)
     answer = on_given(answer, *whole)
     notes = [*cleaning_notes(*whole), *_left_out(bodies[0], alone, "source"), *_left_out(bodies[1], without, "target")]
+    more = beyond(bodies, whole)
+    notes += more
     if placed is not None:
         answer, missed = placed.applied(answer)
         notes += [*placed.notes, *missed]
-    status = answer.status
-    if (alone or without) and status.rank < MatchStatus.INCOMPLETE.rank:
-        status = MatchStatus.INCOMPLETE
+    status = incomplete(answer.status) if alone or without or more else answer.status
     told = [*answer.meta.get("notes", ()), *map(str, notes)]
     meta = {**answer.meta, "notes": told, "seconds": round(time.perf_counter() - started, 3)}
     return replace(answer, status=status, meta=meta)
+
+
+def incomplete(status: MatchStatus) -> MatchStatus:
+    """That status, at best INCOMPLETE."""
+    return max(status, MatchStatus.INCOMPLETE, key=lambda one: one.rank)
+
+
+def beyond(bodies: tuple[Sequence[Body], Sequence[Body]], whole: tuple[Surface, Surface]) -> list[Note]:
+    """The notes on bodies that no partner is looked for: those beyond the largest, and those of too few vertices."""
+    notes = []
+    for found, surface, name in zip(bodies, whole, ("source", "target"), strict=True):
+        area = component_areas(surface.original)
+        count = int((area >= BODY * area.max()).sum())
+        if count > len(found):
+            message = (
+                f"{count - len(found)} of {count} bodies of the {name} were not looked at, as only the "
+                f"{MOST_BODIES} largest of enough vertices are: split the mesh, and match the pieces"
+            )
+            notes.append(Note("W305", "warning", message, (), count - len(found)))
+    return notes
 
 
 def _left_out(bodies: Sequence[Body], alone: Sequence[int], name: str) -> list[Note]:

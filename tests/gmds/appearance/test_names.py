@@ -25,7 +25,7 @@ def named(uv: bool = False) -> str:
     lines += ["vt 0 0", "vt 1 0", "vt 0 1"] if uv else []
     lines.append("o wolf")
     for face, upper in zip((SHAPE.faces + 1).tolist(), UPPER, strict=True):
-        lines += [f"g {'head' if upper else 'body'}", f"usemtl {'Größe 1' if upper else 'fur'}"]
+        lines += [f"g {'head' if upper else 'body'}", f"usemtl {'Größe #1' if upper else 'fur'}"]
         lines.append("f " + " ".join(f"{i}/{t}" if uv else str(i) for t, i in enumerate(face, start=1)))
     return "\n".join(lines) + "\n"
 
@@ -55,14 +55,14 @@ def run(folder: Path, source: Mesh, *more: str) -> tuple[dict, str]:
     return json.loads(done.stdout), done.stderr
 
 
-EXPECTED = [("wolf", "head", "Größe 1") if upper else ("wolf", "body", "fur") for upper in UPPER]
+EXPECTED = [("wolf", "head", "Größe #1") if upper else ("wolf", "body", "fur") for upper in UPPER]
 
 
 def test_the_same_mesh_keeps_every_name_in_its_place(tmp_path: Path) -> None:
     (tmp_path / "wolf.obj").write_text(named(), encoding="utf-8")
     result, told = run(tmp_path, SHAPE)
     assert under(tmp_path / "out.obj") == EXPECTED
-    assert result["carried"] == "names" and sorted(result["materials"]) == ["Größe 1", "fur"]
+    assert result["carried"] == "names" and sorted(result["materials"]) == ["Größe #1", "fur"]
     assert "the wolf.mtl is named in out.obj and not copied" in told and "not carried" not in told
     assert "mtllib the wolf.mtl" in (tmp_path / "out.obj").read_text(encoding="utf-8")
     assert np.array_equal(read_mesh(tmp_path / "out.obj").faces, SHAPE.faces)
@@ -72,7 +72,7 @@ def test_other_triangles_get_the_name_of_where_their_middle_goes(tmp_path: Path)
     (tmp_path / "wolf.obj").write_text(named(), encoding="utf-8")
     fine = subdivided(SHAPE)
     run(tmp_path, fine)
-    upper = [name == ("wolf", "head", "Größe 1") for name in under(tmp_path / "out.obj")]
+    upper = [name == ("wolf", "head", "Größe #1") for name in under(tmp_path / "out.obj")]
     middle = SurfacePoints.closest(SHAPE, fine.vertices[fine.faces].mean(axis=1)).face
     assert upper == [UPPER[face] for face in middle]
 
@@ -82,10 +82,10 @@ def test_one_image_goes_to_every_material(tmp_path: Path) -> None:
     (tmp_path / "wolf.obj").write_text(named(uv=True), encoding="utf-8")
     image.new("RGB", (4, 4)).save(tmp_path / "wolf.png")
     _, told = run(tmp_path, SHAPE, "--texture", str(tmp_path / "wolf.png"))
-    assert "has 2 materials (fur, Größe 1), which get one image" in told or "(Größe 1, fur), which" in told
+    assert "has 2 materials (fur, Größe #1), which get one image" in told or "(Größe #1, fur), which" in told
     assert under(tmp_path / "out.obj") == EXPECTED
     written = (tmp_path / "out.mtl").read_text(encoding="utf-8")
-    assert written.count("map_Kd out.png") == 2 and "newmtl Größe 1" in written
+    assert written.count("map_Kd out.png") == 2 and "newmtl Größe #1" in written
 
 
 def test_faces_without_a_name_behind_those_that_have_one(tmp_path: Path) -> None:

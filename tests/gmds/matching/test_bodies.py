@@ -9,6 +9,7 @@ import gmds
 from geodesics import Mesh
 from gmds.maps.point_map import MatchStatus
 from gmds.matching.bodies import bodies_of
+from gmds.matching.several_bodies import beyond, incomplete
 from gmds.shapes import quadruped
 from gmds.surface.measured import measure
 
@@ -70,3 +71,20 @@ def test_landmarks_hold_on_the_body_they_lie_on() -> None:
 def test_one_body_is_the_surface_itself() -> None:
     surface = measure(bumpy())
     assert [one.surface for one in bodies_of(surface)] == [surface]
+
+
+def test_more_bodies_than_are_looked_at_are_told() -> None:
+    column = joined(*(moved(bumpy(), (0, 0, 3.0 * i), 1 + 0.02 * i) for i in range(8)))
+    surface = measure(column)
+    assert len(bodies_of(surface)) == 6
+    told = beyond((bodies_of(surface),) * 2, (surface, surface))
+    assert [note.code for note in told] == ["W305", "W305"] and "2 of 8 bodies of the source" in told[0].message
+    assert beyond((bodies_of(measure(bumpy())),) * 2, (measure(bumpy()),) * 2) == []
+    assert incomplete(MatchStatus.GOOD) is MatchStatus.INCOMPLETE and incomplete(MatchStatus.POOR) is MatchStatus.POOR
+
+
+def test_a_body_of_too_few_vertices_is_told() -> None:
+    sheet = Mesh([[9, 0, 0], [9, 3, 0], [9, 0, 3]], [[0, 1, 2]])
+    answer = gmds.match(joined(bumpy(), sheet), bumpy(), n_samples=SAMPLES)
+    assert answer.status is MatchStatus.INCOMPLETE and not answer.valid[-3:].any() and answer.valid[:-3].all()
+    assert any(note.startswith("W305: 1 of 2 bodies of the source were not looked at") for note in answer.meta["notes"])
