@@ -11,7 +11,7 @@
 | W302 | soft landmarks that the map misses by far |
 | W303 | a mesh has faults and was matched as a clean copy: what was welded, dropped and taken apart |
 | W304 | small parts of a mesh hang together with nothing: their vertices go along with the nearest and are not valid |
-| W305 | a body of one mesh has no partner in the other; the status is INCOMPLETE unless it is worse |
+| W305 | a body of one mesh has no partner in the other, or was not looked at; the status is INCOMPLETE or worse |
 """
 
 from __future__ import annotations
