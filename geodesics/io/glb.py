@@ -50,7 +50,7 @@ def _read(gltf: Gltf, size: int) -> Contents:
         _add(gltf, place, joined, max(MOST_BYTES, size))
     if not joined.parts:
         if joined.others:
-            raise NoFaces(f"{gltf.path}: the scene has points or lines alone; points must be triangulated first")
+            raise NoFaces(f"{gltf.path}: the mesh has no faces, points or lines alone; they must be triangulated first")
         raise BadContainer(f"{gltf.path}: there are 0 mesh parts in the scene")
     notes = []
     if len(joined.parts) > 1:

@@ -214,6 +214,6 @@ REFUSED: list[tuple[str, str | bytes, str, str]] = [
     ("short.ply", PLY + PLY_FACES + "end_header\n" + (points() + faces()).replace("\n", " ")[:-4], "E204", "declared"),
     ("fortran.obj", (OBJ_V + OBJ_F).replace("1.0", "1.0D0"), "E207", "line 2"),
     ("lines.vtk", vtk("3.0", b"LINES 1 3\n2 0 1\n"), "E104", "no faces"),
-    ("points.glb", glb(lambda buffer: scene({**plain(buffer), "mode": 0})), "E104", "points must be triangulated"),
+    ("points.glb", glb(lambda buffer: scene({**plain(buffer), "mode": 0})), "E104", "must be triangulated first"),
     ("lines.glb", glb(lambda buffer: scene({**plain(buffer), "mode": 3})), "E104", "points or lines alone"),
 ]
