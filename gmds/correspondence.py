@@ -15,11 +15,13 @@ from geodesics.caching import cached_property
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
 from gmds.errors import MapArray, MapError
-from gmds.maps.images import FAR, image, preimage
+from gmds.maps.confidence import confidence_at, known_confidence, not_rated
+from gmds.maps.doubt import DoubtfulRegion, doubtful_regions
+from gmds.maps.images import composed, inverted
 from gmds.maps.npz_format import read_map, write_map
 from gmds.maps.overlap import covered, overlap
 from gmds.maps.point_map import Candidate, MatchStatus
-from gmds.maps.rows import check_rows
+from gmds.maps.rows import attributes, check_rows, frozen_rows, members
 from gmds.maps.values import carry
 from gmds.pictures.panels import write_picture
 from gmds.report.notebook import mimebundle
@@ -39,18 +41,21 @@ class Correspondence:
     valid : bool array of shape (n,)
         False where the vertex has no counterpart; the point of such a row is finite and means nothing.
     distortion : float64 array of shape (n,)
-        How badly lengths around the vertex are preserved, relative and not negative: small is trustworthy.
+        By what share lengths around the vertex change, from 0 for none: `gmds.maps.distortion` defines it.
     status : MatchStatus
         How far the whole can be trusted.
     candidates : tuple of Candidate
         Other maps, best first.
     meta : mapping
         Parameters, seed, notes (`gmds.matching.notes`), versions and timings, as JSON can carry them.
+    confidence : float64 array of shape (n,)
+        The probability that the point is within 0.05 root areas of the truth (`gmds.maps.confidence`): 0 where not
+        `valid`, NaN everywhere where nobody rated the map.
 
     Raises
     ------
     MapError
-        When a row is missing, lies on another mesh than `target`, or its distortion is not finite.
+        When a row is missing, lies on another mesh than `target`, or has no finite distortion or no probability.
 
     See Also
     --------
@@ -66,12 +71,12 @@ class Correspondence:
     status: MatchStatus = MatchStatus.UNRATED
     candidates: tuple[Candidate, ...] = ()
     meta: Mapping[str, Any] = field(default_factory=dict)
+    confidence: Floats = field(default_factory=not_rated)
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "confidence", known_confidence(self.confidence, self.valid))
         check_rows(self)
-        for name, dtype in (("valid", np.bool_), ("distortion", np.float64)):
-            array = np.array(getattr(self, name), dtype=dtype).reshape(-1)
-            array.setflags(write=False)
+        for name, array in frozen_rows(self).items():
             object.__setattr__(self, name, array)
         object.__setattr__(self, "candidates", tuple(self.candidates))
 
@@ -114,6 +119,15 @@ class Correspondence:
         """The shares in [0, 1] of the area of the source that is valid, and of that of the target that is covered."""
         return overlap(self)
 
+    def confidence_at(self, radius: float) -> Floats:
+        """The probability (n,) that a point is within another `radius` of the truth, in root areas of the target."""
+        return confidence_at(self.confidence, radius)
+
+    @property
+    def doubtful(self) -> list[DoubtfulRegion]:
+        """Regions of the source where the map is probably wrong, the largest first (see `gmds.maps.doubt`)."""
+        return doubtful_regions(self.source, self.confidence, self.valid)
+
     def vertex_map(self) -> Integers:
         """The target vertex nearest to each point, among the corners of its face: int64 array of shape (n,)."""
         return self.points.nearest_vertices()
@@ -145,30 +159,21 @@ class Correspondence:
     def inverse(self) -> Correspondence:
         """The map from target to source, without candidates.
 
-        The images of the source triangles are triangles lying along the target. Each target vertex takes the nearest
-        point (in space) of the nearest of them, and that point's barycentric weights in the source triangle; a vertex
-        map that is one to one is therefore inverted exactly. Triangles with a corner that is not valid, or torn apart
-        by the map (an edge stretched more than 5 times and longer than 0.1 sqrt(area)), are left out. A vertex is not
-        `valid` when the nearest image is further than 0.05 sqrt(target area), or when it is on no face. Distortion is
-        that of the source point plus the distance to the image over sqrt(target area)."""
-        source, target = self.source, self.target
-        points, gap = preimage(self, np.arange(target.n_vertices))
-        valid = (gap <= FAR) & (np.bincount(target.faces.ravel(), minlength=target.n_vertices) > 0)
-        distortion = np.where(np.isfinite(gap), points.interpolate(self.distortion) + gap, 1.0)
-        return Correspondence(target, source, points, valid, distortion, self.status, (), self.meta)
+        Each target vertex takes the nearest point of the images of the source triangles (see
+        `gmds.maps.images.preimage`); a vertex map that is one to one is inverted exactly. A vertex is not `valid` when
+        that is further than 0.05 sqrt(target area), or when it is on no face. Distortion is that of the source point
+        plus the distance to the image over sqrt(target area); confidence is that of the source point."""
+        return Correspondence(self.target, self.source, status=self.status, meta=self.meta, **inverted(self))
 
     def compose(self, other: Correspondence) -> Correspondence:
         """First this map, then `other`, through which the points of this one are sent (see `gmds.maps.images.image`).
 
-        A row is `valid` when this map is there and `other` is at every corner with weight; distortions add. Raises
-        `MapError` when `other` does not start on the very mesh where this map ends.
-        """
+        A row is `valid` when this map is there and `other` is at every corner with weight; distortions add, confidences
+        multiply. Raises `MapError` when `other` does not start on the very mesh where this map ends."""
         if self.target is not other.source:
             raise MapError("the second map must start on the very mesh (the same object) on which the first one ends")
-        points, valid, distortion = image(other, self.points)
         status = max(self.status, other.status, key=lambda status: status.rank)
-        valid, distortion = self.valid & valid, self.distortion + distortion
-        return Correspondence(self.source, other.target, points, valid, distortion, status)
+        return Correspondence(self.source, other.target, status=status, **composed(self, other))
 
     def report(self, path: str | os.PathLike[str], errors: ArrayLike | None = None, **options: Any) -> None:
         """Write a page to look at this map in a browser; see `gmds.report.write_report`."""
@@ -180,9 +185,7 @@ class Correspondence:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write map.npz, version 1 (see `gmds.maps.npz_format`), atomically, without candidates. Raises `OSError`."""
-        arrays = {"face": self.points.face, "barycentric": self.points.barycentric, "vertex": self.vertex_map()}
-        flags = {"valid": self.valid, "distortion": self.distortion}
-        write_map(path, {**arrays, **flags}, {**self.meta, "status": self.status.name}, self.source, self.target)
+        write_map(path, *members(self), self.source, self.target)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str], source: Mesh, target: Mesh) -> Correspondence:
@@ -190,11 +193,8 @@ class Correspondence:
 
         Raises `OSError`, or `FormatError` with code E210 (members), E211 (arrays), E212 (other meshes), E213 (version)
         or E220 (pickled)."""
-        arrays, meta = read_map(path, source, target)
-        status = MatchStatus.__members__.get(str(meta.pop("status", "UNRATED")), MatchStatus.UNRATED)
-        meta = {key: value for key, value in meta.items() if key not in ("format", "version", "source", "target")}
+        read = read_map(path, source, target)
         try:
-            points = SurfacePoints(target, arrays["face"], arrays["barycentric"])
-            return cls(source, target, points, arrays["valid"], arrays["distortion"], status, (), meta)
+            return cls(source, target, **attributes(target, *read))
         except ValueError as error:
             raise MapArray(f"{path}: {error}") from error

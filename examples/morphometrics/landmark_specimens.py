@@ -32,7 +32,7 @@ Array = NDArray[np.float64]
 
 UP: dict[str, Direction] = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 # both set by hand: who looks at more is on the safe side
-DOUBTFUL = 0.3  # confidence of a landmark below which it needs a look
+DOUBTFUL = 0.5  # confidence of a landmark below which it is more likely wrong than right
 MISSING = ("NA", "NA", "NA")  # a place, as R reads it
 FAR = 3.0  # times the median distance from the mean shape beyond which a specimen does
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -39,6 +39,11 @@ def valid_count(answer: Any, as_json: bool) -> dict[str, Any]:
     """How many vertices of the source have a counterpart, of how many."""
     valid, vertices = int(answer.valid.sum()), len(answer.valid)
     return {"valid": valid, "vertices": vertices} if as_json else {"valid": f"{valid} of {vertices}"}
+
+
+def known(values: Iterable[float]) -> list[float | None]:
+    """Numbers as JSON can carry them: None for NaN."""
+    return [None if value != value else float(value) for value in values]
 
 
 def tell_written(path: Path, why: str) -> None:

@@ -30,8 +30,9 @@ class CarriedLandmarks:
     valid : bool array of shape (k,)
         False where the landmark has no place on the source, or that place no counterpart on the target; such a point
         means nothing.
-    distortion : float64 array of shape (k,)
-        That of the map there.
+    distortion, confidence : float64 array of shape (k,)
+        Those of the map there: the confidence is the probability that the landmark is within 0.05 root areas of where
+        it belongs (see `gmds.maps.confidence`), 0 where not `valid`, NaN where nobody rated the map.
 
     See Also
     --------
@@ -44,20 +45,12 @@ class CarriedLandmarks:
     moved: Floats
     valid: Bools
     distortion: Floats
+    confidence: Floats
 
     @property
     def names(self) -> tuple[str, ...]:
         """The names, (k,)."""
         return self.given.names
-
-    @property
-    def confidence(self) -> Floats:
-        """max(0, 1 - distortion), (k,), and 0 where not `valid`: a rank for whom to look at first, no probability.
-
-        1 says that all distances from the landmark are the same on both surfaces, 0 that they differ by as much as
-        their mean. On surfaces that differ in shape, and not in pose alone, true correspondences also score below 1.
-        """
-        return np.where(self.valid, np.clip(1 - self.distortion, 0, 1), 0.0)
 
     def landmarks(self, *, vertices: bool = False) -> Landmarks:
         """The landmarks on the target, in the same order: missing where not `valid`, undefined as on the source.
@@ -115,4 +108,6 @@ def carry_landmarks(answer: PointMap, landmarks: Landmarks) -> CarriedLandmarks:
     if landmarks.at.shape[1:] == (3,):
         moved[there] = np.linalg.norm(placed.positions - landmarks.at[there], axis=1)
     on_target, valid, distortion = image(answer, on_source)
-    return CarriedLandmarks(landmarks, on_source, on_target, moved, valid & landmarks.defined, distortion)
+    valid = valid & landmarks.defined
+    confidence = np.where(valid, on_source.interpolate(answer.confidence), 0.0)
+    return CarriedLandmarks(landmarks, on_source, on_target, moved, valid, distortion, confidence)

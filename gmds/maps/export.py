@@ -27,6 +27,7 @@ COLUMNS = (
     "z",
     "valid",
     "distortion",
+    "confidence",
 )
 
 
@@ -64,12 +65,13 @@ def export_map(answer: PointMap, path: str | os.PathLike[str]) -> None:
     """Write a map for other programs, atomically; the ending of the file says for which.
 
     .csv: a header and a row for every source vertex, indices from 0: the source vertex, the nearest target vertex, the
-    target face and the barycentric weights of the point on it, its position, whether it is valid (1 or 0), and the
-    distortion. Numbers are written with all their digits.
+    target face and the barycentric weights of the point on it, its position, whether it is valid (1 or 0), the
+    distortion and the confidence (nan where nobody rated the map). Numbers are written with all their digits.
 
     .mat (MATLAB 5, readable by Octave and scipy): `vertex` (n, 1), `face` (n, 1), `barycentric` (n, 3), `position`
-    (n, 3), `valid` (n, 1) logical, `distortion` (n, 1), `status`, and the counts `n_source`, `n_target`. Indices are
-    doubles from 1, as MATLAB has them: `target_vertices(vertex(i), :)` is where source vertex i goes.
+    (n, 3), `valid` (n, 1) logical, `distortion` (n, 1), `confidence` (n, 1), `status`, and the counts `n_source`,
+    `n_target`. Indices are doubles from 1, as MATLAB has them: `target_vertices(vertex(i), :)` is where source vertex
+    i goes.
 
     Parameters
     ----------
@@ -104,6 +106,7 @@ def _csv(answer: PointMap) -> bytes:
         *answer.points.positions.T.tolist(),
         answer.valid.astype(int).tolist(),
         answer.distortion.tolist(),
+        answer.confidence.tolist(),
     )
     return table_text(chain([COLUMNS], zip(*columns, strict=True))).encode("ascii")
 
@@ -119,6 +122,7 @@ def _mat(answer: PointMap) -> bytes:
         "position": answer.points.positions,
         "valid": answer.valid,
         "distortion": answer.distortion,
+        "confidence": answer.confidence,
         "status": answer.status.name,
         "n_source": float(answer.source.n_vertices),
         "n_target": float(answer.target.n_vertices),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -68,6 +70,29 @@ def image(answer: PointMap, points: SurfacePoints) -> tuple[SurfacePoints, Bools
 
     valid = np.all(answer.valid[corners] | (weights <= 0), axis=1)
     return SurfacePoints(answer.target, face, barycentric), valid, points.interpolate(answer.distortion)
+
+
+def inverted(answer: PointMap) -> dict[str, Any]:
+    """The rows of the map from target to source, by name: see `Correspondence.inverse`."""
+    target = answer.target
+    points, gap = preimage(answer, np.arange(target.n_vertices))
+    return {
+        "points": points,
+        "valid": (gap <= FAR) & (np.bincount(target.faces.ravel(), minlength=target.n_vertices) > 0),
+        "distortion": np.where(np.isfinite(gap), points.interpolate(answer.distortion) + gap, 1.0),
+        "confidence": points.interpolate(answer.confidence),
+    }
+
+
+def composed(first: PointMap, second: PointMap) -> dict[str, Any]:
+    """The rows of the map that goes on with `second`, by name: see `Correspondence.compose`."""
+    points, valid, distortion = image(second, first.points)
+    return {
+        "points": points,
+        "valid": first.valid & valid,
+        "distortion": first.distortion + distortion,
+        "confidence": first.confidence * first.points.interpolate(second.confidence),
+    }
 
 
 def _torn(source: Mesh, image: Floats, size: float) -> Bools:

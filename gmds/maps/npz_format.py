@@ -1,7 +1,8 @@
 """map.npz, version 1: a map on disk, readable with numpy alone, never pickled.
 
 Members: `face` int32 (n,), `barycentric` float64 (n, 3), `vertex` int64 (n,), `valid` bool (n,),
-`distortion` float32 (n,), `meta` UTF-8 JSON bytes as uint8.
+`distortion` float32 (n,), `meta` UTF-8 JSON bytes as uint8; of a map that was rated also `confidence` float32 (n,),
+which files of older releases lack.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from gmds.files.npz import DAMAGED, PickledArray, opened, read_header, read_memb
 
 FORMAT, VERSION = "gmds-map", 1
 DTYPES = {"face": "<i4", "barycentric": "<f8", "vertex": "<i8", "valid": "|b1", "distortion": "<f4", "meta": "|u1"}
+OPTIONAL = {"confidence": "<f4"}
 MAX_META_BYTES = 16_000_000  # a bound on memory; what `match` writes has a few thousand
 
 T = TypeVar("T")
@@ -46,7 +48,11 @@ def write_map(
     text = json.dumps({**meta, **head}, sort_keys=True, allow_nan=False, default=_plain).encode("utf-8")
     members = {**arrays, "meta": np.frombuffer(text, dtype=np.uint8)}
     with atomic_write(path) as stream:
-        packed: dict[str, Any] = {name: np.asarray(members[name]).astype(DTYPES[name]) for name in DTYPES}
+        packed: dict[str, Any] = {
+            name: np.asarray(members[name]).astype(dtype)
+            for name, dtype in (DTYPES | OPTIONAL).items()
+            if name in members
+        }
         np.savez_compressed(stream, **packed)
 
 
@@ -77,10 +83,10 @@ def read_meta(path: str | os.PathLike[str]) -> dict[str, Any]:
 
 
 def _read_members(path: Path, archive: zipfile.ZipFile, source: Mesh, target: Mesh) -> tuple[Arrays, dict[str, Any]]:
-    _check_names(path, archive)
+    there = _check_names(path, archive)
     meta = _parse_meta(path, _member(path, archive, "meta", None))
     _check_meshes(path, meta, source, target)
-    shapes: dict[str, tuple[int, ...]] = {name: (source.n_vertices,) for name in DTYPES if name != "meta"}
+    shapes: dict[str, tuple[int, ...]] = {name: (source.n_vertices,) for name in there if name != "meta"}
     shapes |= {"barycentric": (source.n_vertices, 3)}
     return {name: _member(path, archive, name, shape) for name, shape in shapes.items()}, meta
 
@@ -92,16 +98,19 @@ def _plain(value: Any) -> Any:
     raise TypeError(f"meta holds {value!r}, which JSON cannot carry; use numbers, strings, lists and dicts")
 
 
-def _check_names(path: Path, archive: zipfile.ZipFile) -> None:
+def _check_names(path: Path, archive: zipfile.ZipFile) -> list[str]:
+    """The members that are there, of those that a map can have."""
     names = [name.removesuffix(".npy") for name in archive.namelist()]
     missing = [name for name in DTYPES if name not in names]
     if missing:
         raise MapMembers(f"{path} lacks {', '.join(missing)}; a map has the members {', '.join(DTYPES)}")
-    extra = sorted({name for name in names if name not in DTYPES or names.count(name) > 1})
+    known = DTYPES | OPTIONAL
+    extra = sorted({name for name in names if name not in known or names.count(name) > 1})
     if extra:
         raise MapMembers(
-            f"{path} has unknown or repeated members {extra[:5]!r}; a map has {', '.join(DTYPES)} once each"
+            f"{path} has unknown or repeated members {extra[:5]!r}; a map has {', '.join(known)} once each"
         )
+    return [name for name in known if name in names]
 
 
 def _member(path: Path, archive: zipfile.ZipFile, name: str, shape: tuple[int, ...] | None) -> NDArray[Any]:
@@ -115,9 +124,10 @@ def _member(path: Path, archive: zipfile.ZipFile, name: str, shape: tuple[int, .
             raise MapArray(f"{path}: member {name} has {error}") from error
     limit = (MAX_META_BYTES,) if shape is None else shape
     fits = stored == limit or (shape is None and len(stored) == 1 and stored[0] <= MAX_META_BYTES)
-    if dtype != np.dtype(DTYPES[name]) or not fits:
+    expected = np.dtype((DTYPES | OPTIONAL)[name])
+    if dtype != expected or not fits:
         wanted = "(at most 16 MB,)" if shape is None else shape
-        raise MapArray(f"{path}: member {name} is {dtype} {stored}, expected {np.dtype(DTYPES[name])} {wanted}")
+        raise MapArray(f"{path}: member {name} is {dtype} {stored}, expected {expected} {wanted}")
     try:
         return read_member(archive, f"{name}.npy")
     except ValueError as error:

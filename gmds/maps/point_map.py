@@ -15,18 +15,18 @@ from geodesics.points import SurfacePoints
 class MatchStatus(Enum):
     """How far a map can be trusted, best first; the value is a sentence for people.
 
-    What decides which one a match gets, with its thresholds, is in `gmds/matching/result.py`.
+    What decides which one a match gets, with its thresholds, is in `gmds/matching/rating.py`.
 
     See Also
     --------
     Status : How a solver ended.
     """
 
-    GOOD = "The map preserves distances well and no other map does nearly as well."
+    GOOD = "Most of the map is expected to be right, and no other map does nearly as well."
     INCOMPLETE = "What was matched is matched well, but a body of one mesh has no partner in the other; see the notes."
     AMBIGUOUS = "Another map, for instance the mirrored one, does nearly as well; see `candidates`."
-    UNRATED = "Nobody has rated this map; see `distortion`."
-    POOR = "Distances are badly preserved; the two surfaces may not be the same kind of thing."
+    UNRATED = "Nobody has rated this map."
+    POOR = "Much of the map is expected to be wrong; the two surfaces may not be the same kind of thing."
 
     @property
     def rank(self) -> int:
@@ -74,6 +74,8 @@ class PointMap(Protocol):
     def valid(self) -> Bools: ...
     @property
     def distortion(self) -> Floats: ...
+    @property
+    def confidence(self) -> Floats: ...
     @property
     def status(self) -> MatchStatus: ...
     @property

@@ -17,7 +17,8 @@ from gmds.matching.candidates import GivenDistances, make_candidate
 from gmds.matching.pair import SurfacePair
 from gmds.matching.part_answers import PartAnswer, Parts, likelier_part, maps_of_parts
 from gmds.matching.proposals import Proposal, likely_maps, proposals
-from gmds.matching.result import AMBIGUOUS_MARGIN, correspondence_of
+from gmds.matching.rating import AMBIGUOUS_MARGIN
+from gmds.matching.result import correspondence_of
 from gmds.matching.steps import Report, starts_of, views_of
 from gmds.mds.losses import Loss
 from gmds.parts.handedness import AS_IT_IS, INSIDE_OUT, MIRRORED, Image, image_costs
@@ -152,14 +153,19 @@ def _whole(attempt: Attempt) -> float:
     return min(one.neg_log_likelihood for one in attempt.maps)
 
 
-def with_candidate(answer: Correspondence, other: Attempt, wanted: Wanted) -> Correspondence:
-    """The answer, POOR since another image of the target is far likelier, with the map to that as first candidate."""
+def with_candidate(answer: Correspondence, found: Sequence[Attempt], other: Attempt, wanted: Wanted) -> Correspondence:
+    """The answer, POOR since another image of the target is far likelier than all `found`, whose map is a candidate.
+
+    Its confidence is that of the map if it is the right one of both, which is less likely than not.
+    """
+    gain = min(one.neg_log_likelihood for one in found) - other.neg_log_likelihood
     part = likelier_part(other.of_parts, other.maps, wanted.parts)
     if part is None:
         best = make_candidate(other.pair, other.maps[0], wanted.loss, wanted.count, other.given)
-        found = correspondence_of([best], {})
+        image = correspondence_of([best], {})
     else:
-        found = part.correspondence({})
-    evidence = found.meta["evidence"]
-    candidate = Candidate(found.points, evidence["stress"], evidence["orientation"])
-    return replace(answer, status=MatchStatus.POOR, candidates=(candidate, *answer.candidates))
+        image = part.correspondence({})
+    evidence = image.meta["evidence"]
+    candidate = Candidate(image.points, evidence["stress"], evidence["orientation"])
+    confidence = answer.confidence / (1 + np.exp(gain))
+    return replace(answer, status=MatchStatus.POOR, confidence=confidence, candidates=(candidate, *answer.candidates))

@@ -142,11 +142,13 @@ def _joined(maps: Sequence[tuple[tuple[Body, Body], Correspondence]], whole: tup
     points, candidates = _on_whole(first.points, maps[0][0][1], target), first.candidates
     sent = [_on_whole(one.points, maps[0][0][1], target) for one in candidates]
     valid, distortion = first.valid & _on(maps[0][0][0], source), first.distortion.copy()
+    confidence = first.confidence
     for (ours, theirs), answer in maps[1:]:
         here = _on(ours, source)
         there = _on_whole(answer.points, theirs, target)
         points, sent = mixed(here, there, points), [mixed(here, there, one) for one in sent]
         valid, distortion = np.where(here, answer.valid, valid), np.where(here, answer.distortion, distortion)
+        confidence = np.where(here, answer.confidence, confidence)
     worst = max((answer.status for _, answer in maps), key=lambda status: status.rank)
     notes = [note for _, answer in maps for note in answer.meta.get("notes", ())]
     meta = {**first.meta, "bodies": len(maps), "notes": list(dict.fromkeys(notes))}
@@ -158,6 +160,7 @@ def _joined(maps: Sequence[tuple[tuple[Body, Body], Correspondence]], whole: tup
         points=points,
         valid=valid,
         distortion=distortion,
+        confidence=confidence,
         status=worst,
         candidates=others,
         meta=meta,

@@ -43,6 +43,7 @@ def on_given(answer: Correspondence, source: Surface, target: Surface) -> Corres
         points=_carried(answer.points, row, target),
         valid=answer.valid[row] & kept,
         distortion=np.where(kept, answer.distortion[row], 1.0),
+        confidence=answer.confidence[row],
         candidates=tuple(replace(one, points=_carried(one.points, row, target)) for one in answer.candidates),
     )
 

@@ -83,6 +83,7 @@ class CoarseCopies:
             points=self._sent(answer.points, corners, weights),
             valid=used & (share > 0.5),
             distortion=combination(weights, answer.distortion[corners]),
+            confidence=combination(weights, answer.confidence[corners]),
             status=answer.status,
             candidates=tuple(self._candidate(one, corners, weights) for one in answer.candidates),
             meta={**answer.meta, "solved_vertices": [copy.mesh.n_vertices for copy in self.copies]},

@@ -12,6 +12,7 @@
 | W303 | a mesh has faults and was matched as a clean copy: what was welded, dropped and taken apart |
 | W304 | small parts of a mesh hang together with nothing: their vertices go along with the nearest and are not valid |
 | W305 | a body of one mesh has no partner in the other, or was not looked at; the status is INCOMPLETE or worse |
+| W306 | regions where the map is probably wrong, by its confidence: their shares, and a vertex in the midst of each |
 """
 
 from __future__ import annotations
@@ -19,8 +20,11 @@ from __future__ import annotations
 from geodesics import Mesh
 from geodesics.errors import Note
 from geodesics.topology.invariants import invariants
-from gmds.maps.point_map import MatchStatus
+from gmds.maps.doubt import doubtful_regions
+from gmds.maps.point_map import MatchStatus, PointMap
 from gmds.parts.handedness import Image
+
+NAMED = 5  # doubtful regions that are named, at the most: set by hand
 
 
 def match_notes(source: Mesh, target: Mesh, status: MatchStatus, *, of_a_part: bool = False) -> list[Note]:
@@ -35,6 +39,20 @@ def match_notes(source: Mesh, target: Mesh, status: MatchStatus, *, of_a_part: b
     if status is MatchStatus.AMBIGUOUS:
         notes.append(Note("W207", "warning", status.value))
     return notes
+
+
+def doubt_notes(answer: PointMap) -> list[Note]:
+    """The note on regions where the map is probably wrong, the largest of them named."""
+    regions = doubtful_regions(answer.source, answer.confidence, answer.valid)
+    if not regions:
+        return []
+    named = [
+        f"{one.share:.0%} of the area around vertex {one.center} (confidence {one.confidence:.2f})"
+        for one in regions[:NAMED]
+    ]
+    rest = "" if len(regions) <= NAMED else f", and {len(regions) - NAMED} smaller ones"
+    message = f"regions of the source where the map is probably wrong: {', '.join(named)}{rest}"
+    return [Note("W306", "warning", message, tuple(one.center for one in regions), len(regions))]
 
 
 def image_notes(image: Image, *, taken: bool) -> list[Note]:

@@ -19,7 +19,8 @@ from gmds.matching.overlaps import overlap_candidates
 from gmds.matching.pair import SurfacePair
 from gmds.matching.parts import PartCandidate, part_candidates
 from gmds.matching.proposals import Proposal
-from gmds.matching.result import AMBIGUOUS_MARGIN, MARGIN_OF_THE_ONLY, distortion_of, margin_of, original_points
+from gmds.matching.rating import confidence_of, expected_share, status_of
+from gmds.matching.result import MARGIN_OF_THE_ONLY, distortion_of, margin_of, original_points
 from gmds.matching.steps import Report
 from gmds.mds.losses import Loss
 from gmds.provenance import versions
@@ -31,9 +32,9 @@ Parts = Literal["auto", "neither", "source", "target", "both"]
 EITHER: tuple[Part, ...] = ("source", "target", "both")
 PARTS: tuple[Parts, ...] = ("auto", "neither", "source", "target", "both")
 
-# A map of a part is POOR when its negative log-likelihood is above the first, or curvature correlates by less than the
-# second: midway between right maps of the development half of the PFAUST pairs, -11.7 and 0.73 at the worst, and wrong
-# ones of parts of SHREC'20 animals (notes.md, "Parts"), -10.3 where curvature correlates as well, 0.32 where not.
+# A map of a part looks wrong when its negative log-likelihood is above the first, or curvature correlates by less than
+# the second: midway between right maps of the development half of the PFAUST pairs, -11.7 and 0.73 at the worst, and
+# wrong ones of parts of SHREC'20 animals (notes.md, "Parts"), -10.3 where curvature correlates as well, 0.32 where not.
 LEAST_LIKELY = -10.8
 LEAST_CURVATURE = 0.5
 # Length of the boundary in root areas, above which something may be missing: the wrist of a person is 0.1 around.
@@ -130,7 +131,7 @@ def part_answer(candidates: Sequence[PartCandidate], part: Part, meta: Mapping[s
     """
     best = candidates[0]
     margin = margin_of([one.rank for one in candidates], [one.images.positions for one in candidates])
-    forward = _forward(best, _status(best, margin), meta)
+    forward = _rated(_forward(best, MatchStatus.UNRATED, meta), best, margin)
     evidence = {**best.candidate.evidence.as_meta(), "margin": min(margin, MARGIN_OF_THE_ONLY)}
     others = [
         Candidate(_points(one, part), one.candidate.evidence.stress, one.candidate.evidence.orientation)
@@ -147,11 +148,12 @@ def part_answer(candidates: Sequence[PartCandidate], part: Part, meta: Mapping[s
     return replace(answer, candidates=tuple(others), meta=described)
 
 
-def _status(best: PartCandidate, margin: float) -> MatchStatus:
-    whole = best.candidate.evidence.whole
-    if best.neg_log_likelihood > LEAST_LIKELY or whole.curvature < LEAST_CURVATURE:
-        return MatchStatus.POOR
-    return MatchStatus.AMBIGUOUS if margin < AMBIGUOUS_MARGIN else MatchStatus.GOOD
+def _rated(forward: Correspondence, best: PartCandidate, margin: float) -> Correspondence:
+    confidence = confidence_of(best.candidate, margin)
+    expected = expected_share(confidence, best.candidate.pair.full[0].areas, forward.valid)
+    curvature = best.candidate.evidence.whole.curvature
+    badly_kept = best.neg_log_likelihood > LEAST_LIKELY or curvature < LEAST_CURVATURE
+    return replace(forward, confidence=confidence, status=status_of(expected, margin, badly_kept=badly_kept))
 
 
 def _forward(one: PartCandidate, status: MatchStatus, meta: Mapping[str, Any]) -> Correspondence:

@@ -20,7 +20,7 @@ from gmds.matching.bodies import bodies_of
 from gmds.matching.candidates import mirrored
 from gmds.matching.clean_copies import cleaning_notes, on_clean, on_given
 from gmds.matching.large_surfaces import CoarseCopies
-from gmds.matching.notes import image_notes, match_notes
+from gmds.matching.notes import doubt_notes, image_notes, match_notes
 from gmds.matching.part_answers import PARTS, Parts, likelier_part
 from gmds.matching.result import correspondence_of
 from gmds.matching.several_bodies import beyond, incomplete, match_bodies
@@ -154,7 +154,7 @@ def match(  # noqa: PLR0913 - the signature is a promise
     of_a_part = "part" in answer.meta
     notes = match_notes(measured.original, facing.original, answer.status, of_a_part=of_a_part)
     notes += [] if image is None else image_notes(image, taken=orientation != "preserve")
-    notes += cleaning_notes(*whole)
+    notes += [*cleaning_notes(*whole), *doubt_notes(answer)]
     if more := beyond(bodies, whole):
         answer, notes = replace(answer, status=incomplete(answer.status)), [*notes, *more]
     if placed is not None:
@@ -184,7 +184,7 @@ def _answered(
         candidates = registered(candidates, wanted.report) if wanted.distance is None else candidates
         answer = correspondence_of([*candidates, *mirrored(candidates[0])], meta)
     if other is not None and orientation == "preserve":
-        answer = with_candidate(answer, other, wanted)
+        answer = with_candidate(answer, tried, other, wanted)
     return answer, None if other is None else other.image
 
 

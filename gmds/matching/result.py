@@ -11,19 +11,18 @@ from scipy.spatial import cKDTree
 from geodesics import SurfacePoints
 from geodesics.arrays import Bools, Floats
 from gmds.correspondence import Correspondence
-from gmds.maps.point_map import Candidate, MatchStatus
+from gmds.maps.distortion import edge_distortion
+from gmds.maps.point_map import Candidate
 from gmds.matching.candidates import MapCandidate
+from gmds.matching.rating import AMBIGUOUS_MARGIN, confidence_of, expected_share, status_of
 from gmds.provenance import versions
 from gmds.surface.measured import on_original
 
-# Beyond these a map is POOR: stress (relative change of distances), correlation of mean curvature, elastic energy (at 1
-# lengths are off by about half). Set by hand.
+# Beyond these a map looks wrong: stress (relative change of distances), correlation of mean curvature, elastic energy
+# (at 1 lengths are off by about half). Set by hand.
 MOST_STRESS = 0.2
 LEAST_CURVATURE = 0.2
 MOST_ENERGY = 1.0
-# Difference of log-likelihood below which another map may be the right one: it was 0.06 to 0.65 where the map was wrong
-# and, with two exceptions, 0.79 to 6.2 where it was right (benchmarks/results/notes.md, "Trust").
-AMBIGUOUS_MARGIN = 0.7
 MARGIN_OF_THE_ONLY = 99.0  # what stands for infinity in a file, where there is no other map
 ANOTHER_MAP = 0.1  # mean distance in root areas between the images of two maps that are two answers; set by hand
 # What is off the target (by more than so many spacings of its vertices) and nearer to the boundary than so many times
@@ -43,15 +42,18 @@ def correspondence_of(placed: Sequence[MapCandidate], meta: Mapping[str, Any]) -
     source, target, margin = best.pair.source, best.pair.target, _margin(placed)
     evidence = {**best.evidence.as_meta(), "margin": min(margin, MARGIN_OF_THE_ONLY)}
     candidates = tuple(Candidate(original_points(e), e.evidence.stress, e.evidence.orientation) for e in placed[1:])
+    confidence, valid = confidence_of(best, margin), _valid(best)
+    expected = expected_share(confidence, best.pair.full[0].areas, valid)
     return Correspondence(
         source=source.original,
         target=target.original,
         points=original_points(best),
-        valid=_valid(best),
+        valid=valid,
         distortion=distortion_of(best),
-        status=_status(best, margin),
+        status=status_of(expected, margin, badly_kept=_badly_kept(best)),
         candidates=candidates,
         meta={**meta, "evidence": evidence, "solver": best.solution.status.name, "versions": versions()},
+        confidence=confidence,
     )
 
 
@@ -99,20 +101,18 @@ def _valid(candidate: MapCandidate) -> Bools:
 
 
 def distortion_of(candidate: MapCandidate) -> Floats:
-    """Root of the elastic energy per area around each vertex (n,): the relative error of lengths; 1 where no map is."""
+    """By what share, in [0, 1], lengths around a vertex change (n,), see `gmds.maps.distortion`; 1 where no map is."""
     source = candidate.pair.full[0]
-    average = source.laplacian.heat_step(DISTORTION_TIME)
-    result = np.sqrt(np.maximum(average(source.areas * candidate.deformation.strain), 0.0))
+    change = edge_distortion(source.mesh, candidate.points.positions)
+    result = source.laplacian.heat_step(DISTORTION_TIME)(source.areas * change)
     result[source.areas <= 0] = 1.0
-    return np.asarray(result, dtype=np.float64)
+    return np.asarray(np.clip(result, 0.0, 1.0), dtype=np.float64)
 
 
-def _status(best: MapCandidate, margin: float) -> MatchStatus:
-    """POOR where distances, curvature or lengths are badly kept, AMBIGUOUS where another map is nearly as likely."""
+def _badly_kept(best: MapCandidate) -> bool:
+    """Whether distances, curvature or lengths are kept so badly that the map looks wrong."""
     whole = best.evidence.whole
-    if best.evidence.stress > MOST_STRESS or whole.curvature < LEAST_CURVATURE or whole.energy > MOST_ENERGY:
-        return MatchStatus.POOR
-    return MatchStatus.AMBIGUOUS if margin < AMBIGUOUS_MARGIN else MatchStatus.GOOD
+    return best.evidence.stress > MOST_STRESS or whole.curvature < LEAST_CURVATURE or whole.energy > MOST_ENERGY
 
 
 def margin_of(likelihoods: Sequence[float], images: Sequence[Floats]) -> float:

@@ -55,7 +55,7 @@ def write_picture(
         The map, of n source vertices.
     errors : array of shape (n,), optional
         Shown on the source in a third view; where one is not finite, that of the nearest vertex. Without errors the
-        third view shows the distortion of the map, if it has any.
+        third view shows doubt, 1 less the confidence of the map, or its distortion where nobody rated it.
     title : str
         Above it all.
     names : two str
@@ -111,13 +111,21 @@ def map_panels(
         Panel(names[0], Shot(answer.source, pulled, view, pixels)),
         Panel(names[1], Shot(answer.target, colours, view @ alignment(answer), pixels)),
     ]
-    values = answer.distortion if errors is None else nearest_known(answer.source, errors)
+    caption, values, limits = _judgement(answer, errors)
     if errors is not None or values.any():
-        limits = shown_range(values)
         shown = value_colours(np.where(answer.valid, values, np.nan), *limits)
-        caption = "distortion" if errors is None else "error"
         panels.append(Panel(caption, Shot(answer.source, shown, view, pixels), limits))
     return panels
+
+
+def _judgement(answer: PointMap, errors: ArrayLike | None) -> tuple[str, Floats, tuple[float, float]]:
+    """What tells how good the map is where, what it is called, and the range that is shown."""
+    if errors is not None:
+        values = nearest_known(answer.source, errors)
+        return "error", values, shown_range(values)
+    if np.isnan(answer.confidence).all():
+        return "distortion", answer.distortion, shown_range(answer.distortion)
+    return "doubt", 1 - answer.confidence, (0.0, 1.0)
 
 
 def write_values(

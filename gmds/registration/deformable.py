@@ -107,6 +107,10 @@ class DeformableMesh:
         size = np.linalg.norm(normals, axis=1, keepdims=True)
         return np.hstack([y, NORMAL_WEIGHT * normals / np.maximum(size, np.finfo(float).tiny)])
 
+    def moved_normals(self, y: Floats) -> Floats:
+        """Unit normals (n, 3) after moving the vertices to y (n, 3)."""
+        return self.moved_features(y)[:, 3:] / NORMAL_WEIGHT
+
     @cached_property
     def _around(self) -> sp.csr_matrix:
         """Sums over the faces around each vertex, (n, m)."""

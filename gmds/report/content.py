@@ -30,8 +30,11 @@ MATCH = (
 )
 VALID = "Which points of either surface have a partner. Those without are on a part that the other surface lacks."
 DISTORTION = (
-    "How badly distances around a point are preserved, which can be told without knowing the truth: dark blue is "
-    "trustworthy, yellow is where to look first."
+    "By what share lengths around a point change. Where one animal has a longer neck than the other, they have to."
+)
+DOUBT = (
+    "How likely a point is off the truth by more than 0.05 of the root of the area of the target, 1 less the "
+    "confidence: yellow is where to look first."
 )
 ERROR = (
     "How far a point is sent from its true place, along the target, over the square root of its area: dark blue is "
@@ -73,6 +76,7 @@ class _CandidateMap(NamedTuple):
     points: SurfacePoints
     valid: Bools
     distortion: Floats
+    confidence: Floats
     status: MatchStatus
     candidates: tuple[Candidate, ...]
     meta: Mapping[str, Any]
@@ -84,8 +88,9 @@ class _CandidateMap(NamedTuple):
 def _maps(answer: PointMap) -> list[PointMap]:
     """The map itself, then each of its candidates as a map of its own, of which no distortion is known."""
     unrated, status, meta = np.zeros(len(answer.valid)), MatchStatus.UNRATED, answer.meta
+    unknown = np.full(len(unrated), np.nan)
     others = (
-        _CandidateMap(answer.source, answer.target, one.points, answer.valid, unrated, status, (), meta)
+        _CandidateMap(answer.source, answer.target, one.points, answer.valid, unrated, unknown, status, (), meta)
         for one in answer.candidates
     )
     return [answer, *others]
@@ -103,6 +108,8 @@ def _names(answer: PointMap) -> list[tuple[str, str]]:
 def _fields(one: PointMap, errors: Floats | None) -> dict[str, Floats]:
     """What is known per source vertex (n,) of a map; NaN where it is not."""
     fields = {}
+    if not np.isnan(one.confidence).all():
+        fields["doubt"] = np.where(one.valid, 1 - one.confidence, np.nan)
     if np.ptp(one.distortion) > 0:
         fields["distortion"] = np.where(one.valid, one.distortion, np.nan)
     if errors is not None and np.isfinite(errors).any():
@@ -114,21 +121,20 @@ def _modes(fields: Mapping[str, Floats], n_vertices: int) -> list[dict[str, Any]
     """The ways of colouring: what they are called, what they mean, and the range of what they show."""
     modes: list[dict[str, Any]] = [{"key": "match", "label": "Matching colours", "help": MATCH}]
     for key, label, meaning, axis in (
+        ("doubt", "Doubt", DOUBT, "doubt: probability of being off by more than 0.05 √area"),
         ("distortion", "Distortion", DISTORTION, "distortion: relative error of lengths"),
         ("error", "Error", ERROR, "error: distance from the true point / √area"),
     ):
         if key in fields:
             known = fields[key][np.isfinite(fields[key])]
-            top = shown_range(known)[1] or float(known.max()) or 1.0
+            top = 1.0 if key == "doubt" else shown_range(known)[1] or float(known.max()) or 1.0
             sparse = SPARSE.format(f"{len(known):,}") if key == "error" and len(known) < n_vertices // 2 else ""
             counted = "points" if sparse else "vertices"
             about = {"key": key, "label": label, "help": meaning + sparse, "axis": axis, "counted": counted}
             modes.append({**about, "high": top, "beyond": bool((known > top).any())})
     swatches = levels(np.array([UNMATCHED_COLOUR, MATCHED_COLOUR])).tolist()
-    modes.insert(
-        2 if "distortion" in fields else 1,
-        {"key": "valid", "label": "Counterparts", "help": VALID, "swatches": swatches},
-    )
+    judged = sum(key in fields for key in ("doubt", "distortion"))
+    modes.insert(1 + judged, {"key": "valid", "label": "Counterparts", "help": VALID, "swatches": swatches})
     return modes
 
 

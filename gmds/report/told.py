@@ -75,6 +75,9 @@ def facts(answer: PointMap, errors: Floats | None, *, shares: bool = True) -> Ro
     if shares:
         ours, theirs = (f"{100 * share:.1f} %" for share in overlap(answer))
         rows.append(("area with a counterpart, of the source and of the target", f"{ours}, {theirs}"))
+    expected = answer.confidence[valid].mean() if valid.any() else np.nan
+    if np.isfinite(expected):
+        rows.append(("points expected within 0.05 of the truth (mean confidence)", f"{100 * expected:.0f} %"))
     if valid.any() and np.ptp(answer.distortion) > 0:
         middle, most = np.median(answer.distortion[valid]), answer.distortion[valid].max()
         rows.append(("distortion, median and largest", f"{middle:.4g}, {most:.4g}"))
@@ -84,7 +87,9 @@ def facts(answer: PointMap, errors: Floats | None, *, shares: bool = True) -> Ro
 def _of_best(answer: PointMap, errors: Floats | None) -> Told:
     valid = answer.valid
     found: Rows = [(f"{100 * valid.mean():.1f} %", "of the source has a counterpart")]
-    if valid.any() and np.ptp(answer.distortion) > 0:
+    if valid.any() and not np.isnan(answer.confidence).all():
+        found.append((f"{100 * answer.confidence[valid].mean():.0f} %", "of points expected within 0.05 of the truth"))
+    elif valid.any() and np.ptp(answer.distortion) > 0:
         found.append((f"{np.median(answer.distortion[valid]):.3g}", "median distortion"))
     if answer.candidates:
         found.append((str(len(answer.candidates)), "other maps to compare"))

@@ -64,7 +64,7 @@ def defined(body: list[ast.stmt]) -> dict[str, ast.stmt]:
         ("the negative log-likelihood of a proposal", "Proposal.neg_log_likelihood"),
         ("the energy of a registration", "AsSimilarAsPossible"),
         (".fcsv", "parse_fcsv"),
-        ("what decides `status`", "_status"),
+        ("what decides `status`", "status_of"),
         ("how a part is looked for", "part_maps"),
     ],
 )

@@ -99,7 +99,7 @@ def test_the_table_holds_the_landmarks_where_they_belong(done: tuple[Path, Any, 
     assert np.abs(places[0] - 3 * template.vertices[marks.vertices] @ TURN.T).max() < 1e-6
     true = truth(template, walking)[marks.vertices].positions
     off = np.linalg.norm(places[1] - true, axis=1) / np.sqrt(walking.area)
-    trusted = np.array([float(row["confidence"]) >= 0.3 for row in table[2 * len(marks) : 3 * len(marks)]])
+    trusted = np.array([float(row["confidence"]) >= 0.5 for row in table[2 * len(marks) : 3 * len(marks)]])
     assert trusted.sum() >= 6 and off[trusted].max() < 0.06  # the ears of so coarse an animal are doubtful, and told
 
 

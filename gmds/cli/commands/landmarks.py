@@ -10,7 +10,7 @@ import click
 from gmds.cli.group import Command
 from gmds.cli.landmark_options import check_on, landmarks_of, space_option, specimen_option
 from gmds.cli.matching_options import orientation_option
-from gmds.cli.output import emit, json_option, note, progress_bar, seed_option
+from gmds.cli.output import emit, json_option, known, note, progress_bar, seed_option
 
 if TYPE_CHECKING:
     from geodesics import Mesh
@@ -67,8 +67,8 @@ def command(
     \b
     For every landmark the table has
       moved       how far it was from the surface of SOURCE, in the units of the mesh
-      confidence  1 - the distortion of the map there, at least 0; a rank for whom to look at first, no probability.
-                  1: distances from it are the same on both surfaces; 0: they differ by as much as their mean
+      confidence  the probability that it is within 0.05 root areas of where it belongs; none for a map that was not
+                  rated, as one of an older release
       valid       whether it has a counterpart; where it has none the confidence is 0 and there is no place
 
     Landmarks without a counterpart, or without a place on SOURCE, keep their places in the list: missing or undefined
@@ -85,7 +85,7 @@ def command(
     answer = _map(*meshes, map_file, orientation, seed)
     carried = carry_landmarks(answer, marks)
     columns = {
-        "confidence": [round(float(value), 4) for value in carried.confidence],
+        "confidence": ["NA" if value is None else round(value, 4) for value in known(carried.confidence)],
         "valid": carried.valid.astype(int).tolist(),
     }
     write_landmarks(output, carried.landmarks(vertices=as_vertices), space, columns)
@@ -119,13 +119,14 @@ def _map(source: Mesh, target: Mesh, map_file: Path | None, orientation: Orienta
 def _told(carried: CarriedLandmarks) -> list[dict[str, Any]]:
     """What is said of each landmark."""
     positions, vertices = carried.on_target.positions, carried.on_target.nearest_vertices()
+    confidence = known(carried.confidence)
     return [
         {
             "name": name,
             "position": positions[i].tolist() if carried.valid[i] else None,
             "vertex": int(vertices[i]) if carried.valid[i] else None,
             "moved": float(carried.moved[i]) if carried.given.defined[i] else None,
-            "confidence": float(carried.confidence[i]),
+            "confidence": confidence[i],
             "valid": bool(carried.valid[i]),
         }
         for i, name in enumerate(carried.names)

@@ -9,7 +9,7 @@ import click
 
 from gmds.cli.landmark_options import given_landmarks, space_option, tolerance_option
 from gmds.cli.matching_options import matching_arguments, matching_options
-from gmds.cli.output import emit, json_option, note, progress_bar, valid_count
+from gmds.cli.output import emit, json_option, known, note, progress_bar, valid_count
 from gmds.cli.paths import EndingIn
 from gmds.cli.settings import ConfiguredCommand
 from gmds.cli.view_options import view_options, write_views
@@ -82,5 +82,7 @@ def map_summary(answer: Any, as_json: bool) -> dict[str, Any]:
         **valid_count(answer, as_json),
         "overlap": overlap,
         "median_distortion": float(np.median(answer.distortion)),
+        "mean_confidence": known([answer.confidence[answer.valid].mean() if answer.valid.any() else 0.0])[0],
+        **({"doubtful": [one.as_data() for one in answer.doubtful]} if as_json else {}),
         "candidates": candidates,
     }

@@ -31,12 +31,12 @@ GIVEN: dict[str, Any] = {}
 
 
 def answer_of(source: Mesh, target: Mesh, **options: Any) -> Correspondence:
-    """Vertex i to vertex i; vertex `LOST` has no counterpart, and distortion grows from 0 to 1.5 over the vertices."""
+    """Vertex i to vertex i; vertex `LOST` has no counterpart, and confidence falls from 1 to 0 over the vertices."""
     GIVEN.update(options)
     valid = np.arange(N) != LOST
     points = SurfacePoints.at_vertices(target, np.arange(N))
-    distortion = np.linspace(0, 1.5, N)
-    return Correspondence.from_points(source, points, valid=valid, distortion=distortion, status=MatchStatus.GOOD)
+    confidence = np.linspace(1, 0, N)
+    return Correspondence.from_points(source, points, valid=valid, confidence=confidence, status=MatchStatus.GOOD)
 
 
 def run(*args: object) -> Result:
@@ -97,7 +97,7 @@ def test_positions_arrive_where_the_map_sends_them(pair: tuple[Path, Path], tmp_
     said = json.loads(result.stdout)
     assert [row["vertex"] for row in said["carried"]] == [3, 50, 11]
     assert [row["name"] for row in said["carried"]] == (["1", "2", "3"] if ending == ".tps" else ["v3", "v50", "v11"])
-    expected = [1 - 1.5 * i / (N - 1) for i in (3, 50, 11)]
+    expected = [1 - i / (N - 1) for i in (3, 50, 11)]
     assert np.allclose([row["confidence"] for row in said["carried"]], expected)
 
 
@@ -136,7 +136,7 @@ def test_points_without_a_counterpart_are_flagged(pair: tuple[Path, Path], tmp_p
     assert "without a counterpart on the target: v40" in result.stderr
     lines = (tmp_path / "b.csv").read_text().splitlines()
     assert lines[0] == "name,x,y,z,confidence,valid"
-    assert lines[1].endswith(",0.0,0") and lines[2].endswith(",0.9534,1")
+    assert lines[1].endswith(",0.0,0") and lines[2].endswith(",0.9689,1")
     human = run("landmarks", pair[0], tmp_path / "a.csv", pair[1], "-o", tmp_path / "b.csv").stdout
     assert "v40:" in human and "valid False" in human
 

@@ -31,7 +31,8 @@ MARKS = Landmarks(NAMES, AT, status=STATUS)  # type: ignore[arg-type]
 def answer() -> Correspondence:
     points = SurfacePoints.at_vertices(TARGET, np.arange(SHAPE.n_vertices))
     valid = np.arange(SHAPE.n_vertices) != LOST
-    return Correspondence.from_points(SHAPE, points, valid=valid, status=MatchStatus.GOOD)
+    sure = np.ones(SHAPE.n_vertices)
+    return Correspondence.from_points(SHAPE, points, valid=valid, status=MatchStatus.GOOD, confidence=sure)
 
 
 @pytest.fixture

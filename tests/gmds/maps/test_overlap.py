@@ -62,7 +62,15 @@ def test_a_surface_covers_itself_but_for_vertices_on_no_face() -> None:
 def test_a_map_that_does_not_know_is_asked_as_one_that_does() -> None:
     answer = left_of(rectangle(20, 20), 0.5)
     plain = _CandidateMap(
-        answer.source, answer.target, answer.points, answer.valid, answer.distortion, answer.status, (), {}
+        answer.source,
+        answer.target,
+        answer.points,
+        answer.valid,
+        answer.distortion,
+        answer.confidence,
+        answer.status,
+        (),
+        {},
     )
     assert np.array_equal(covered_of(plain), answer.covered)
 

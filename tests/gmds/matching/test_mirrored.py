@@ -11,7 +11,7 @@ from cut_shapes import cut
 import gmds
 from geodesics import Mesh
 from gmds.maps.point_map import MatchStatus
-from gmds.matching.attempts import SYMMETRIC, Orientation, own_symmetry
+from gmds.matching.attempts import FAR_LIKELIER, SYMMETRIC, Orientation, own_symmetry
 from gmds.matching.pair import SurfacePair, simplified
 from gmds.parts.handedness import AS_IT_IS, INSIDE_OUT, MIRRORED, Image, image_costs
 from gmds.shapes import humanoid, quadruped
@@ -72,6 +72,7 @@ def test_a_right_one_on_a_left_one_is_told_and_auto_takes_it(left_to_right: bool
     kept = gmds.match(source, target, n_samples=60)
     assert kept.status is MatchStatus.POOR
     assert "W225" in codes(kept)
+    assert kept.status is MatchStatus.POOR and kept.confidence.max() < 1 / (1 + np.exp(FAR_LIKELIER))
     assert error(kept, kept.candidates[0].points.positions) < 0.1 < error(kept)
     assert kept.candidates[0].orientation < -0.9
     taken = gmds.match(source, target, n_samples=60, orientation="auto")

@@ -152,9 +152,9 @@ def test_a_wrong_soft_landmark_does_less_harm_than_a_hard_one() -> None:
 
 
 def test_a_soft_landmark_that_is_given_up_is_named() -> None:
-    (note,) = matched("wrong", 0.05).meta["notes"]
+    (note,) = (line for line in matched("wrong", 0.05).meta["notes"] if not line.startswith("W306"))
     assert note.startswith("W302: 1 soft landmarks") and "number 4, by 0." in note
-    assert matched("right", 0.05).meta["notes"] == []
+    assert not [line for line in matched("right", 0.05).meta["notes"] if line.startswith("W302")]
 
 
 def test_landmarks_count_with_a_distance_of_ones_own_as_well() -> None:
