@@ -4,8 +4,8 @@
     python -m benchmarks.stability.same_maps OUT_DIR -o now.csv                # in each checkout
     python -m benchmarks.stability.same_maps OUT_DIR -o now.csv --against then.csv
 
-A change that only moves code must keep every byte: of the points, their weights, `valid`, `distortion`, the status and
-every candidate. Exit code 1 when a map differs. What is in the CSV is not matched again.
+A change that only moves code must keep every byte: of the points, their weights, `valid`, `distortion`, `confidence`,
+the status and every candidate. Exit code 1 when a map differs. What is in the CSV is not matched again.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def pairs(folder: Path, data: Path) -> Iterator[tuple[str, Path, Path]]:
 
 def digest(answer: gmds.Correspondence) -> str:
     """Sixteen characters that change when any array of the map or of its candidates does."""
-    arrays = [answer.points.face, answer.points.barycentric, answer.valid, answer.distortion]
+    arrays = [answer.points.face, answer.points.barycentric, answer.valid, answer.distortion, answer.confidence]
     for candidate in answer.candidates:
         arrays += [candidate.points.face, candidate.points.barycentric]
     found = hashlib.sha256()
