@@ -15,7 +15,7 @@ import argparse
 import os
 import sys
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -45,19 +45,30 @@ def pairs(every: int) -> Iterator[tuple[str, Pair]]:
         yield from ((name, pair) for pair in pairs_of(name)[:: step * every])
 
 
-def rounded(mesh: Mesh, rng: np.random.Generator) -> tuple[Mesh, Integers]:
-    """With its vertices moved by `MOVED`; and which vertex each vertex became."""
+class Again(NamedTuple):
+    """A mesh, and which vertex and face of it the vertices and faces of another became."""
+
+    mesh: Mesh
+    vertex: Integers
+    face: Integers
+
+    def points(self, points: SurfacePoints) -> SurfacePoints:
+        """Points of the other mesh on this one: the corners of faces keep their order."""
+        return SurfacePoints(self.mesh, self.face[points.face], points.barycentric)
+
+
+def rounded(mesh: Mesh, rng: np.random.Generator) -> Again:
+    """With its vertices moved by `MOVED`."""
     step = rng.normal(size=mesh.vertices.shape)
     step *= MOVED * np.sqrt(mesh.area) / np.linalg.norm(step, axis=1, keepdims=True)
-    return Mesh(mesh.vertices + step, mesh.faces), np.arange(mesh.n_vertices)
+    return Again(Mesh(mesh.vertices + step, mesh.faces), np.arange(mesh.n_vertices), np.arange(mesh.n_faces))
 
 
-def renumbered(mesh: Mesh, rng: np.random.Generator) -> tuple[Mesh, Integers]:
-    """With vertices and faces in another order; and which vertex each vertex became."""
+def renumbered(mesh: Mesh, rng: np.random.Generator) -> Again:
+    """With vertices and faces in another order."""
     order, faces = rng.permutation(mesh.n_vertices), rng.permutation(mesh.n_faces)
-    place = np.empty(mesh.n_vertices, dtype=np.int64)
-    place[order] = np.arange(mesh.n_vertices)
-    return Mesh(mesh.vertices[order], place[mesh.faces][faces]), place
+    place = np.argsort(order)
+    return Again(Mesh(mesh.vertices[order], place[mesh.faces][faces]), place, np.argsort(faces))
 
 
 def row(name: str, pair: Pair, version: str) -> dict[str, Any]:
@@ -73,12 +84,11 @@ def row(name: str, pair: Pair, version: str) -> dict[str, Any]:
     found: dict[str, Any] = {"pair": pair.name, "set": name, "version": version, "status": first.status.name}
     found["error"] = f"{error:.3f}"
     for way, change in zip(WAYS, (rounded, renumbered), strict=True):
-        (ours, place), (theirs, there) = change(source, rng), change(target, rng)
-        again = gmds.match(ours, theirs)
-        before = SurfacePoints.at_vertices(theirs, there[first.points[rows].nearest_vertices()])
-        moved = geodesic_error(again.points[place[rows]], before)
-        moved_truth = SurfacePoints.at_vertices(theirs, there[true.nearest_vertices()])
-        after = 100 * geodesic_error(again.points[place[rows]], moved_truth).mean()
+        ours, theirs = change(source, rng), change(target, rng)
+        again = gmds.match(ours.mesh, theirs.mesh)
+        images = again.points[ours.vertex[rows]]
+        moved = geodesic_error(images, theirs.points(first.points[rows]))
+        after = 100 * geodesic_error(images, theirs.points(true)).mean()
         found |= {f"{way}_move": f"{moved.mean():.4f}", f"{way}_most": f"{moved.max():.4f}"}
         found |= {f"{way}_error": f"{after:.3f}", f"{way}_status": again.status.name}
     return found
