@@ -33,10 +33,10 @@ EITHER: tuple[Part, ...] = ("source", "target", "both")
 PARTS: tuple[Parts, ...] = ("auto", "neither", "source", "target", "both")
 
 # A map of a part looks wrong when its negative log-likelihood is above the first, or curvature correlates by less than
-# the second: midway between right maps of the development half of the PFAUST pairs, -11.7 and 0.73 at the worst, and
-# wrong ones of parts of SHREC'20 animals (notes.md, "Parts"), -10.3 where curvature correlates as well, 0.32 where not.
+# the second: right maps of the development half of the PFAUST pairs have -11.7 and 0.73 at the worst, wrong ones of
+# parts of SHREC'20 animals (notes.md, "Parts") -10.3 or 0.32 at the best. Between, the confidence decides.
 LEAST_LIKELY = -10.8
-LEAST_CURVATURE = 0.5
+LEAST_CURVATURE = 0.7
 # Length of the boundary in root areas, above which something may be missing: the wrist of a person is 0.1 around.
 # What is shorter is an eye, or a hole of a scan.
 LEAST_BOUNDARY = 0.1
