@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import logging
 import multiprocessing
+import signal
 import sys
+from collections.abc import Iterator
+from multiprocessing import resource_tracker
 from typing import Any
 
 from gmds.errors import WorkersNotStarted
@@ -21,14 +25,15 @@ def local_cluster(distributed: Any, workers: int | None) -> Any:
     """
     for start in range(1, STARTS + 1):
         try:
-            return distributed.LocalCluster(
-                n_workers=workers,
-                threads_per_worker=1,
-                env={"GMDS_THREADS": "1"},  # there is a worker for every processor
-                processes=True,
-                dashboard_address="127.0.0.1:0",  # any port: others may run on this machine
-                silence_logs=logging.CRITICAL,
-            )
+            with interrupts_held_back():
+                return distributed.LocalCluster(
+                    n_workers=workers,
+                    threads_per_worker=1,
+                    env={"GMDS_THREADS": "1"},  # there is a worker for every processor
+                    processes=True,
+                    dashboard_address="127.0.0.1:0",  # any port: others may run on this machine
+                    silence_logs=logging.CRITICAL,
+                )
         except (RuntimeError, OSError) as error:
             if start == STARTS:
                 raise WorkersNotStarted(
@@ -36,6 +41,20 @@ def local_cluster(distributed: Any, workers: int | None) -> Any:
                     f"of memory, or a script starts a batch outside `{GUARD}`, which each of them runs again; "
                     "start fewer of them (--workers 1), or put the batch of a script below that line"
                 ) from None
+
+
+@contextlib.contextmanager
+def interrupts_held_back() -> Iterator[None]:
+    """Ctrl-C in a terminal reaches all processes: those that start meanwhile never see it, this one sees it after."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    resource_tracker.ensure_running()  # or it is started with the first worker, and lets interrupts through after
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def end_if_starting() -> None:

@@ -65,7 +65,8 @@ def remote_client(address: str) -> Iterator[Any]:
 def quiet() -> None:
     """Keeps the log of dask to itself, in a process that reports failures itself and may be interrupted."""
     _distributed()  # its import sets levels
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    for name in ("distributed", "asyncio"):  # the latter tells of connections that are cut when all is ended
+        logging.getLogger(name).setLevel(logging.CRITICAL)
 
 
 def outcomes(

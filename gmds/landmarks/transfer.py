@@ -11,7 +11,7 @@ from geodesics.arrays import Bools, Floats
 from gmds.errors import LandmarkError
 from gmds.landmarks.checking import place_on
 from gmds.landmarks.files import Landmarks
-from gmds.maps.images import image
+from gmds.maps.images import confidence_between, image
 from gmds.maps.point_map import PointMap
 
 
@@ -109,5 +109,5 @@ def carry_landmarks(answer: PointMap, landmarks: Landmarks) -> CarriedLandmarks:
         moved[there] = np.linalg.norm(placed.positions - landmarks.at[there], axis=1)
     on_target, valid, distortion = image(answer, on_source)
     valid = valid & landmarks.defined
-    confidence = np.where(valid, on_source.interpolate(answer.confidence), 0.0)
+    confidence = np.where(valid, confidence_between(on_source, answer.confidence), 0.0)
     return CarriedLandmarks(landmarks, on_source, on_target, moved, valid, distortion, confidence)

@@ -20,6 +20,7 @@ RADIUS = 0.05  # root areas of the target: the distance at which the protocol st
 # Radii in root areas, and the logarithm of what odds change by from `RADIUS` to them: fitted (`benchmarks.trust.fit`).
 RADII = (0.02, 0.03, 0.05, 0.08, 0.1, 0.15, 0.2, 0.3)
 LOG_ODDS = (-1.85, -0.97, 0.0, 0.9, 1.29, 1.87, 2.15, 2.43)
+MOST_LOG_ODDS = 700.0  # beyond which the exponential of a double is 0 or infinite: a bound
 
 
 def confidence_at(confidence: ArrayLike, radius: float) -> Floats:
@@ -45,7 +46,7 @@ def confidence_at(confidence: ArrayLike, radius: float) -> Floats:
     if not radius > 0:
         raise ValueError(f"radius must be a positive number of root areas, not {radius!r}")
     p = np.asarray(confidence, dtype=np.float64)
-    factor = np.exp(min(log_odds(radius), np.log(np.finfo(float).max)))
+    factor = np.exp(np.clip(log_odds(radius), -MOST_LOG_ODDS, MOST_LOG_ODDS))
     return np.asarray(p * factor / (1 - p + p * factor), dtype=np.float64)
 
 

@@ -80,7 +80,7 @@ def inverted(answer: PointMap) -> dict[str, Any]:
         "points": points,
         "valid": (gap <= FAR) & (np.bincount(target.faces.ravel(), minlength=target.n_vertices) > 0),
         "distortion": np.where(np.isfinite(gap), points.interpolate(answer.distortion) + gap, 1.0),
-        "confidence": points.interpolate(answer.confidence),
+        "confidence": confidence_between(points, answer.confidence),
     }
 
 
@@ -91,8 +91,13 @@ def composed(first: PointMap, second: PointMap) -> dict[str, Any]:
         "points": points,
         "valid": first.valid & valid,
         "distortion": first.distortion + distortion,
-        "confidence": first.confidence * first.points.interpolate(second.confidence),
+        "confidence": first.confidence * confidence_between(first.points, second.confidence),
     }
+
+
+def confidence_between(points: SurfacePoints, confidence: Floats) -> Floats:
+    """Probabilities at points, from those at vertices: weights sum to 1 only up to rounding. NaN stays NaN."""
+    return np.asarray(np.clip(points.interpolate(confidence), 0.0, 1.0), dtype=np.float64)
 
 
 def _torn(source: Mesh, image: Floats, size: float) -> Bools:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
+from scipy.special import expit
 
 from geodesics import Distance, Mesh
 from geodesics.caching import cached_property
@@ -167,5 +168,5 @@ def with_candidate(answer: Correspondence, found: Sequence[Attempt], other: Atte
         image = part.correspondence({})
     evidence = image.meta["evidence"]
     candidate = Candidate(image.points, evidence["stress"], evidence["orientation"])
-    confidence = answer.confidence / (1 + np.exp(gain))
+    confidence = answer.confidence * expit(-gain)
     return replace(answer, status=MatchStatus.POOR, confidence=confidence, candidates=(candidate, *answer.candidates))

@@ -20,12 +20,13 @@ from gmds.matching.bodies import bodies_of
 from gmds.matching.candidates import mirrored
 from gmds.matching.clean_copies import cleaning_notes, on_clean, on_given
 from gmds.matching.large_surfaces import CoarseCopies
+from gmds.matching.method import loss_of
 from gmds.matching.notes import doubt_notes, image_notes, match_notes
 from gmds.matching.part_answers import PARTS, Parts, likelier_part
 from gmds.matching.result import correspondence_of
 from gmds.matching.several_bodies import beyond, incomplete, match_bodies
 from gmds.matching.steps import embedded, registered
-from gmds.mds.losses import LeastSquares, Loss
+from gmds.mds.losses import Loss
 from gmds.parts.handedness import Image
 from gmds.provenance import method_in_words
 from gmds.suggestions import suggest_keywords
@@ -123,13 +124,12 @@ def match(  # noqa: PLR0913 - the signature is a promise
         raise BadArgument(f"parts must be one of {', '.join(map(repr, PARTS))}, not {parts!r}")
     if parts not in ("auto", "neither") and distance is not None:
         raise BadArgument(f"parts={parts!r} is looked for without a distance of your own; leave one of them out")
+    loss = loss_of(distance, loss)
     measured, facing = (s if isinstance(s, Surface) else measure(Mesh.from_object(s)) for s in (source, target))
-    loss = LeastSquares() if loss is None else loss
     placed = None if landmarks is None else place_landmarks(landmarks, measured.given, facing.given)
     count = SAMPLES if n_samples is None else check_sample_count(n_samples, measured.original)
     report = progress or (lambda stage, fraction: None)
     started = time.perf_counter()
-
     report("measuring", 0.0)
     whole, bodies = (measured, facing), (bodies_of(measured), bodies_of(facing))
     if max(map(len, bodies)) > 1:

@@ -26,13 +26,16 @@ AMBIGUOUS_MARGIN = 0.7
 
 
 def confidence_of(candidate: MapCandidate, margin: float) -> Floats:
-    """The probability (n,) that the image of a vertex of the source is within 0.05 root areas of the truth."""
+    """The probability (n,) that the image of a vertex of the source is within 0.05 root areas of the truth.
+
+    It is 0 at vertices of no area, and where a sign is no number, so that nothing can be said.
+    """
     signs = signs_of(candidate, margin)
     odds = np.full(candidate.pair.source.mesh.n_vertices, CONSTANT)
     for name, (weight, low, high) in WEIGHTS.items():
         odds += weight * np.clip(signs[name], low, high)
     result = 1 / (1 + np.exp(-odds))
-    result[candidate.pair.full[0].areas <= 0] = 0.0
+    result[(candidate.pair.full[0].areas <= 0) | np.isnan(result)] = 0.0
     return np.asarray(result, dtype=np.float64)
 
 

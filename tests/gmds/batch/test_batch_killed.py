@@ -7,7 +7,9 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import batches
 import pytest
@@ -43,8 +45,8 @@ def undisturbed(meshes: Path, tmp_path_factory: pytest.TempPathFactory) -> dict[
     return batches.tree(out)
 
 
-def begun(meshes: Path, out: Path) -> subprocess.Popen[str]:
-    """A batch in a process group of its own, from when its first map is there."""
+def begun(meshes: Path, out: Path, there: Callable[[int], Any] | None = None) -> subprocess.Popen[str]:
+    """A batch in a process group of its own, from when its first map, or what is asked for, is `there`."""
     arguments = ["batch", meshes, "-o", out, "--pairs", "consecutive", "--workers", 2]
     child = subprocess.Popen(
         [sys.executable, "-c", CODE, *map(str, arguments)],
@@ -55,7 +57,8 @@ def begun(meshes: Path, out: Path) -> subprocess.Popen[str]:
         start_new_session=True,
     )
     until = time.monotonic() + 120
-    while not list(out.glob("pairs/*.npz")) and child.poll() is None and time.monotonic() < until:
+    seen = there or (lambda _: list(out.glob("pairs/*.npz")))
+    while not seen(child.pid) and child.poll() is None and time.monotonic() < until:
         time.sleep(0.05)
     return child
 
@@ -86,6 +89,19 @@ def test_what_is_done_is_kept(
         again = match_collection(meshes, tmp_path, pairs=consecutive, client=client)
     assert any(pair.kept for pair in again.pairs)
     assert batches.tree(tmp_path) == undisturbed and not list(tmp_path.glob("*/.*"))
+
+
+def test_an_interrupt_while_workers_start_is_one_line(meshes: Path, tmp_path: Path) -> None:
+    psutil = pytest.importorskip("psutil")
+    with begun(meshes, tmp_path, lambda pid: psutil.Process(pid).children(recursive=True)[2:]) as child:
+        time.sleep(0.3)
+        os.killpg(child.pid, signal.SIGINT)
+        try:
+            output, errors = child.communicate(timeout=60)
+        finally:
+            child.kill()
+    assert child.returncode == 130 and output == ""
+    assert errors.split("\n")[-2] == "gmds: interrupted" and "Traceback" not in errors, errors
 
 
 def test_workers_that_are_killed_as_they_start_are_replaced(

@@ -12,6 +12,7 @@ from gmds import Correspondence
 from gmds.errors import MapError
 from gmds.maps.confidence import RADII, confidence_at
 from gmds.maps.doubt import DOUBT, doubtful_regions
+from gmds.maps.images import confidence_between
 from gmds.maps.npz_format import OPTIONAL
 from tests.support.generated_shapes import bumpy_sphere, rectangle
 
@@ -31,6 +32,7 @@ def test_the_probability_of_being_near_grows_with_the_radius_and_with_confidence
     assert (table[:, 0] == 0).all() and (table[:, -1] == 1).all()
     assert np.isnan(confidence_at([np.nan], 0.1)).all()
     assert np.isfinite(confidence_at(p, 1e300)).all()
+    assert np.array_equal(confidence_at([0.0, 1.0], 1e-320), [0, 1])
 
 
 @pytest.mark.parametrize("radius", [0, -0.1, np.nan])
@@ -52,6 +54,16 @@ def test_a_map_has_none_until_somebody_rates_it_and_zero_where_it_is_not_valid()
 def test_what_is_no_probability_is_refused(wrong: np.ndarray) -> None:
     with pytest.raises(MapError):
         identity(confidence=wrong)
+
+
+def test_certainty_stays_a_probability_where_weights_sum_to_one_up_to_rounding() -> None:
+    rng = np.random.default_rng(0)
+    points = SurfacePoints(SPHERE, rng.integers(SPHERE.n_faces, size=N), rng.dirichlet(np.ones(3), N))
+    assert points.interpolate(np.ones(N)).max() > 1  # by rounding
+    certain = Correspondence.from_points(SPHERE, points, confidence=np.ones(N))
+    onwards = certain.compose(identity(confidence=np.ones(N)))
+    assert np.allclose(onwards.confidence, 1) and onwards.confidence.max() <= 1
+    assert confidence_between(points, np.ones(N)).max() <= 1
 
 
 def test_confidence_goes_with_the_map() -> None:

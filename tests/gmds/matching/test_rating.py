@@ -69,6 +69,18 @@ def test_the_model_knows_every_sign() -> None:
     assert all(one.low < one.high for one in WEIGHTS.values())
 
 
+def test_where_nothing_can_be_said_confidence_is_zero() -> None:
+    small = quadruped(n_vertices=300)
+
+    def without_numbers(*arguments: object) -> object:
+        signs = signs_of(*arguments)  # type: ignore[arg-type]
+        return {**signs, "whole_curvature": np.full(300, np.nan)}
+
+    with mock.patch.object(rating, "signs_of", without_numbers):
+        answer = gmds.match(small, quadruped("graze", n_vertices=300), n_samples=60)
+    assert (answer.confidence == 0).all() and answer.status is MatchStatus.POOR
+
+
 @pytest.mark.parametrize(
     ("expected", "margin", "badly_kept", "status"),
     [
