@@ -70,7 +70,7 @@ def test_lists(tmp_path: Path) -> None:
         (b"a,b\nc\n", "line 2: 1 files, where the first line has 2"),
         (b"a,\n", "line 1"),
         (b"a\0,b\n", "line 1"),
-        (b"\xff\xfe", "UTF-8"),
+        (b"\xfa\xfb", "UTF-8"),
     ],
 )
 def test_bad_lists_name_the_line(tmp_path: Path, content: bytes, message: str) -> None:
