@@ -40,7 +40,7 @@ def distances(path: Path, example: Names) -> None:
 
 
 def a_map(path: Path, example: Names) -> None:
-    """02: a map and its distortion."""
+    """02: a map, and how much in doubt it is."""
     write_picture(path, example["answer"], pixels=PIXELS)
 
 

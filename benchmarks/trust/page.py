@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import coo_matrix
@@ -11,14 +10,12 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from benchmarks.markdown import table
+from benchmarks.trust.judged import JudgedMap, counts_of
 from benchmarks.trust.model import calibration_error, ranked, reliability
 from geodesics.arrays import Bools, Floats, Integers
 from gmds.maps.confidence import RADIUS
 from gmds.maps.doubt import DOUBT
 from gmds.matching.rating import status_of
-
-if TYPE_CHECKING:
-    from benchmarks.trust.fit import JudgedMap
 
 FAR = 0.1  # error in root areas of points that the ROC is of
 RIGHT, WRONG = 4.0, 10.0  # mean errors x100: maps below are right, maps above are wrong
@@ -36,7 +33,7 @@ def page(maps: Sequence[JudgedMap], fitted: Confidences, apart: Confidences) -> 
         "# How sure a map is of itself",
         "",
         "`python -m benchmarks.trust.collect FOLDER; python -m benchmarks.trust.fit FOLDER --write`; the scripts say",
-        "how. The model was fitted to every second map of each kind; figures are of the others, and, *left out whole*,",
+        "how. The model was fitted to half of the maps of each kind; figures are of the others, and, *left out whole*,",
         "of all maps of a kind by a model that was fitted without that kind.",
         "",
         *_by_kind(reporting, fitted, maps, apart),
@@ -80,9 +77,7 @@ def _figures(maps: Sequence[JudgedMap], confidences: Confidences) -> list[object
 
 
 def pooled(maps: Sequence[JudgedMap], confidences: Confidences) -> tuple[Floats, Floats, Floats]:
-    """Confidence, error, and how much it counts, of the valid points of all maps; see `fit.counts_of`."""
-    from benchmarks.trust.fit import counts_of
-
+    """Confidence, error, and how much it counts, of the valid points of all maps; see `counts_of`."""
     p = np.concatenate([confidences[one.name][one.valid] for one in maps])
     return p, np.concatenate([one.error[one.valid] for one in maps]), counts_of(maps)
 

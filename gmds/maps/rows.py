@@ -1,4 +1,4 @@
-"""What every map must be: a row for each vertex of its source, on its target."""
+"""The rows of a map, one for each vertex of its source: what they must be, and what a file holds of them."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ from gmds.matching.signs import signs_of
 from gmds.matching.weights import CONSTANT, WEIGHTS
 
 # A map is POOR when fewer of its points than this are expected to be right; or than the second, where by distances,
-# curvature or lengths it looks wrong: a skull with thousands of folds, of which 93 % is right, does.
+# curvature or lengths it looks wrong: a right map of a skull full of folds does.
 AS_LIKELY_AS_NOT = 0.5
 SURE = 0.75  # set by hand
 # Difference of log-likelihood below which another map may be the right one: it was 0.06 to 0.65 where the map was wrong
