@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from geodesics.diffusion import CommuteTimeDistance as CommuteTimeDistance
     from geodesics.diffusion import DiffusionDistance as DiffusionDistance
     from geodesics.distance import Distance as Distance
+    from geodesics.distance_matrix import distance_matrix as distance_matrix
     from geodesics.errors import FormatError as FormatError
     from geodesics.errors import MeshError as MeshError
     from geodesics.errors import Note as Note
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
     from geodesics.metrics.equi_affine import equi_affine as equi_affine
     from geodesics.metrics.min_curvature import min_curvature as min_curvature
     from geodesics.metrics.scale_invariant import scale_invariant as scale_invariant
+    from geodesics.plotting import plot as plot
     from geodesics.points import SurfacePoints as SurfacePoints
     from geodesics.sampling import farthest_point_sampling as farthest_point_sampling
     from geodesics.sampling import voronoi_cells as voronoi_cells
@@ -68,6 +70,7 @@ _NAMES = {
         "DiffusionDistance",
     ),
     "distance": ("Distance",),
+    "distance_matrix": ("distance_matrix",),
     "errors": (
         "FormatError",
         "MeshError",
@@ -97,6 +100,7 @@ _NAMES = {
     "metrics.equi_affine": ("equi_affine",),
     "metrics.min_curvature": ("min_curvature",),
     "metrics.scale_invariant": ("scale_invariant",),
+    "plotting": ("plot",),
     "points": ("SurfacePoints",),
     "sampling": (
         "farthest_point_sampling",

@@ -15,6 +15,7 @@ from geodesics.errors import BadArgument
 from geodesics.euclidean import euclidean_distances
 from geodesics.memory import table
 from geodesics.mesh import Mesh
+from geodesics.metric import Metric
 from geodesics.points import SurfacePoints
 from geodesics.spectrum import Spectrum, as_spectrum
 from geodesics.topology.components import vertex_components
@@ -40,6 +41,9 @@ class _SpectralDistance:
         object.__setattr__(self, "mesh", spectrum.mesh)
         object.__setattr__(self, "spectrum", spectrum)
         object.__setattr__(self, "embedding", embedding)
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.embedding.shape[1]} coordinates on {self.mesh!r})"
 
     def field(self, points: SurfacePoints | ArrayLike) -> Floats:
         """Distances from each of p points to every vertex.
@@ -94,8 +98,8 @@ class DiffusionDistance(_SpectralDistance):
 
     Parameters
     ----------
-    spectrum : Spectrum
-        Eigenpairs of the surface in some metric.
+    spectrum : Spectrum, Metric or Mesh
+        Eigenpairs of the surface in some metric; of a metric, or a mesh with its embedded metric, the first 100.
     time : float
         :math:`t` in units of the area in that metric, not negative. The k-th term fades about as
         :math:`e^{-8 \pi k t}` (Weyl's law) whatever the size of the surface.
@@ -117,7 +121,7 @@ class DiffusionDistance(_SpectralDistance):
 
     time: float
 
-    def __init__(self, spectrum: Spectrum, time: float) -> None:
+    def __init__(self, spectrum: Spectrum | Metric | Mesh, time: float) -> None:
         spectrum = as_spectrum(spectrum)
         if not time >= 0:
             raise BadArgument(f"time must be >= 0 (in units of the area of the surface), not {time}")
@@ -133,8 +137,8 @@ class CommuteTimeDistance(_SpectralDistance):
 
     Parameters
     ----------
-    spectrum : Spectrum
-        Eigenpairs of the surface in some metric.
+    spectrum : Spectrum, Metric or Mesh
+        Eigenpairs of the surface in some metric; of a metric, or a mesh with its embedded metric, the first 100.
 
     References
     ----------
@@ -145,7 +149,7 @@ class CommuteTimeDistance(_SpectralDistance):
     DiffusionDistance : At one time instead of all.
     """
 
-    def __init__(self, spectrum: Spectrum) -> None:
+    def __init__(self, spectrum: Spectrum | Metric | Mesh) -> None:
         spectrum = as_spectrum(spectrum)
         values, functions = _positive_part(spectrum)
         self._set(spectrum, functions / np.sqrt(2 * values))
@@ -158,8 +162,8 @@ class BiharmonicDistance(_SpectralDistance):
 
     Parameters
     ----------
-    spectrum : Spectrum
-        Eigenpairs of the surface in some metric.
+    spectrum : Spectrum, Metric or Mesh
+        Eigenpairs of the surface in some metric; of a metric, or a mesh with its embedded metric, the first 100.
 
     References
     ----------
@@ -171,7 +175,7 @@ class BiharmonicDistance(_SpectralDistance):
     CommuteTimeDistance : With the first power of the eigenvalue.
     """
 
-    def __init__(self, spectrum: Spectrum) -> None:
+    def __init__(self, spectrum: Spectrum | Metric | Mesh) -> None:
         spectrum = as_spectrum(spectrum)
         values, functions = _positive_part(spectrum)
         self._set(spectrum, functions / values)

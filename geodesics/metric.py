@@ -44,6 +44,10 @@ class Metric:
     mass: Floats
     conformal_factor: Floats | None = None
 
+    def __repr__(self) -> str:
+        kind = "not conformal to that of space" if self.conformal_factor is None else "conformal to that of space"
+        return f"Metric(area {self.mass.sum():.3g}, {kind}, on {self.mesh!r})"
+
 
 def conformal(mesh: Mesh, factor: Floats) -> Metric:
     r"""The metric :math:`\rho g`, with g the embedded metric.

@@ -1,8 +1,4 @@
-"""Signatures of points from the heat equation, computed from eigenpairs.
-
-Times are relative, t = time * area with the area of the surface in the metric of the spectrum, so that no signature
-depends on the unit of length more than its formula does.
-"""
+"""Signatures of points from the heat equation, computed from eigenpairs; times are in units of the area."""
 
 from __future__ import annotations
 
@@ -13,20 +9,24 @@ from geodesics.arrays import Floats
 from geodesics.distance import as_points
 from geodesics.errors import BadArgument
 from geodesics.memory import table
+from geodesics.mesh import Mesh
+from geodesics.metric import Metric
 from geodesics.moved_paths import names_moved
 from geodesics.points import SurfacePoints
 from geodesics.spectrum import Spectrum, as_spectrum
 
+TIMES = 64  # of a signature, where none are given; set by hand
 
-def heat_kernel(spectrum: Spectrum, time: float, points: SurfacePoints | ArrayLike) -> Floats:
+
+def heat_kernel(spectrum: Spectrum | Metric | Mesh, time: float, points: SurfacePoints | ArrayLike) -> Floats:
     r"""The heat kernel from points to all vertices (sec. 3).
 
     .. math:: h_t(s, s') = \sum_i e^{-\lambda_i t} \phi_i(s) \phi_i(s')
 
     Parameters
     ----------
-    spectrum : Spectrum
-        k eigenpairs of the surface in some metric.
+    spectrum : Spectrum, Metric or Mesh
+        k eigenpairs of the surface in some metric; of a metric, or a mesh with its embedded metric, the first 100.
     time : float
         :math:`t` in units of the area of the surface, not negative.
     points : SurfacePoints or array_like of int
@@ -48,23 +48,25 @@ def heat_kernel(spectrum: Spectrum, time: float, points: SurfacePoints | ArrayLi
     --------
     heat_kernel_signature : Its diagonal.
     """
-    points = as_points(as_spectrum(spectrum).mesh, points)
+    spectrum = as_spectrum(spectrum)
+    points = as_points(spectrum.mesh, points)
     fade = np.exp(-spectrum.eigenvalues * (_times(time)[0] * spectrum.mass.sum()))
     result = table(len(points), len(spectrum.mass), "values of the heat kernel", "take fewer points at a time")
     return np.matmul(points.interpolate(spectrum.eigenfunctions) * fade, spectrum.eigenfunctions.T, out=result)
 
 
-def heat_kernel_signature(spectrum: Spectrum, times: ArrayLike) -> Floats:
+def heat_kernel_signature(spectrum: Spectrum | Metric | Mesh, times: ArrayLike | None = None) -> Floats:
     r"""The heat-kernel signature (5.1) of every vertex.
 
     .. math:: \mathrm{HKS}(s, t) = h_t(s, s) = \sum_i e^{-\lambda_i t} \phi_i(s)^2
 
     Parameters
     ----------
-    spectrum : Spectrum
-        k eigenpairs of the surface in some metric.
-    times : array_like of shape (q,)
-        :math:`t` in units of the area of the surface, not negative.
+    spectrum : Spectrum, Metric or Mesh
+        k eigenpairs of the surface in some metric; of a metric, or a mesh with its embedded metric, the first 100.
+    times : array_like of shape (q,), optional
+        :math:`t` in units of the area of the surface, not negative; by default 64 over the range that the spectrum
+        resolves.
 
     Returns
     -------
@@ -87,20 +89,22 @@ def heat_kernel_signature(spectrum: Spectrum, times: ArrayLike) -> Floats:
     scale_invariant_heat_kernel_signature : Its Fourier magnitudes.
     """
     spectrum = as_spectrum(spectrum)
-    return spectrum.eigenfunctions**2 @ _fading(spectrum, times)
+    t = resolved_times(spectrum, TIMES) if times is None else times
+    return spectrum.eigenfunctions**2 @ _fading(spectrum, t)
 
 
-def scaled_heat_kernel_signature(spectrum: Spectrum, times: ArrayLike) -> Floats:
+def scaled_heat_kernel_signature(spectrum: Spectrum | Metric | Mesh, times: ArrayLike | None = None) -> Floats:
     r"""The heat-kernel signature as plotted in Fig. 5 (sec. 5): divided by its integral over the surface.
 
     .. math:: \mathrm{HKS}(s, t) \Big/ \int_S \mathrm{HKS}(s, t) \, da(s)
 
     Parameters
     ----------
-    spectrum : Spectrum
-        k eigenpairs of the surface in some metric.
-    times : array_like of shape (q,)
-        :math:`t` in units of the area of the surface, not negative.
+    spectrum : Spectrum, Metric or Mesh
+        k eigenpairs of the surface in some metric; of a metric, or a mesh with its embedded metric, the first 100.
+    times : array_like of shape (q,), optional
+        :math:`t` in units of the area of the surface, not negative; by default 64 over the range that the spectrum
+        resolves.
 
     Returns
     -------
@@ -111,12 +115,13 @@ def scaled_heat_kernel_signature(spectrum: Spectrum, times: ArrayLike) -> Floats
     --------
     heat_kernel_signature : Without the division.
     """
+    spectrum = as_spectrum(spectrum)
     signature = heat_kernel_signature(spectrum, times)
     return signature / (spectrum.mass @ signature)
 
 
 def scale_invariant_heat_kernel_signature(
-    spectrum: Spectrum, times: ArrayLike | None = None, n_frequencies: int = 6
+    spectrum: Spectrum | Metric | Mesh, times: ArrayLike | None = None, n_frequencies: int = 6
 ) -> Floats:
     r"""The scale-invariant heat-kernel signature of every vertex (footnote 1).
 
@@ -127,8 +132,8 @@ def scale_invariant_heat_kernel_signature(
 
     Parameters
     ----------
-    spectrum : Spectrum
-        k eigenpairs of the surface in some metric.
+    spectrum : Spectrum, Metric or Mesh
+        k eigenpairs of the surface in some metric; of a metric, or a mesh with its embedded metric, the first 100.
     times : array_like of shape (q,), optional
         Positive times that grow by a constant factor, in units of the area; by default 64 over the range that the
         spectrum resolves.
@@ -154,7 +159,7 @@ def scale_invariant_heat_kernel_signature(
     heat_kernel_signature : The signature that is transformed.
     """
     spectrum = as_spectrum(spectrum)
-    t = resolved_times(spectrum, 64) if times is None else _times(times)
+    t = resolved_times(spectrum, TIMES) if times is None else _times(times)
     if len(t) < 3 or np.any(t <= 0) or not np.allclose(t[1:] / t[:-1], t[1] / t[0], rtol=1e-6):
         raise BadArgument("times must be at least three positive numbers that grow by a constant factor")
     used = spectrum.mass > 0

@@ -12,6 +12,7 @@ import scipy.sparse as sp
 import scipy.sparse.linalg as sla
 
 from geodesics.arrays import Bools, Floats, Integers
+from geodesics.caching import memoized
 from geodesics.errors import BadArgument, EigensolverFailed
 from geodesics.laplacian import lumped_mass, stiffness
 from geodesics.linalg.lanczos import smallest_eigenpairs
@@ -25,6 +26,7 @@ SHIFT = 0.6
 # Entry of the stiffness matrix, about 1 in even meshes, of an edge that is as good as no edge: a bound. A needle of
 # this aspect has it; eigenfunctions change along such an edge by its inverse.
 STIFF = 1e6
+USUAL = 100  # eigenpairs where nobody said how many; set by hand, as many as `match` computes in the metric of space
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,19 +55,36 @@ class Spectrum:
     eigenvalues: Floats
     eigenfunctions: Floats
 
+    def __repr__(self) -> str:
+        values = f" from {self.eigenvalues[0]:.3g} to {self.eigenvalues[-1]:.3g}" if len(self.eigenvalues) else ""
+        return f"Spectrum({len(self.eigenvalues)} eigenvalues{values} on {self.mesh!r})"
+
 
 def as_spectrum(spectrum: Any) -> Spectrum:
-    """The spectrum that it is. Raises `TypeError` that says how to make one of a mesh or a metric."""
+    """The spectrum that it is; of a metric, or a mesh with its embedded metric, the first `USUAL` eigenpairs.
+
+    These are kept with what they were computed of. Raises `TypeError` for anything else.
+    """
     if all(hasattr(spectrum, name) for name in ("mesh", "mass", "eigenvalues", "eigenfunctions")):
         return spectrum  # type: ignore[no-any-return]
-    kind = type(spectrum).__name__
-    raise TypeError(f"a spectrum is expected, not {kind}; for example geodesics.eigenpairs(mesh, 100)")
+    try:
+        metric = spectrum if isinstance(spectrum, (Metric, Mesh)) else as_metric(spectrum)
+    except TypeError:
+        kind = type(spectrum).__name__
+        raise TypeError(f"a spectrum is expected, not {kind}; for example geodesics.eigenpairs(mesh, 100)") from None
+    return _usual(metric)
+
+
+@memoized
+def _usual(metric: Metric | Mesh) -> Spectrum:
+    """The first `USUAL` eigenpairs."""
+    return eigenpairs(metric, USUAL)
 
 
 @on_one_blas_thread
 def eigenpairs(
     metric: Metric | Mesh,
-    count: int,
+    count: int = USUAL,
     *,
     mass: Callable[[Metric], sp.spmatrix] = lumped_mass,
     fixed: Bools | None = None,

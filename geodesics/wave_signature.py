@@ -6,6 +6,8 @@ import numpy as np
 
 from geodesics.arrays import Floats
 from geodesics.errors import BadArgument
+from geodesics.mesh import Mesh
+from geodesics.metric import Metric
 from geodesics.spectrum import Spectrum, as_spectrum
 
 # Range of the logarithms of eigenvalues: in a smaller one they are copies of one eigenvalue, as those of symmetric
@@ -13,7 +15,7 @@ from geodesics.spectrum import Spectrum, as_spectrum
 NARROWEST = 1e-3
 
 
-def wave_kernel_signature(spectrum: Spectrum, n_energies: int = 100, width: float = 7.0) -> Floats:
+def wave_kernel_signature(spectrum: Spectrum | Metric | Mesh, n_energies: int = 100, width: float = 7.0) -> Floats:
     r"""The wave-kernel signature of every vertex, beside the signatures of sec. 5.
 
     .. math:: \mathrm{WKS}(s, e) = \frac{\sum_i \phi_i(s)^2 w_i(e)}{\sum_i w_i(e)}, \qquad
@@ -24,8 +26,8 @@ def wave_kernel_signature(spectrum: Spectrum, n_energies: int = 100, width: floa
 
     Parameters
     ----------
-    spectrum : Spectrum
-        k eigenpairs of the surface in some metric.
+    spectrum : Spectrum, Metric or Mesh
+        k eigenpairs of the surface in some metric; of a metric, or a mesh with its embedded metric, the first 100.
     n_energies : int
         Number of energies e.
     width : float

@@ -47,7 +47,7 @@ class Correspondence:
     candidates : tuple of Candidate
         Other maps, best first.
     meta : mapping
-        Parameters, seed, notes (`gmds.matching.notes`), versions and timings, as JSON can carry them.
+        Parameters, seed, notes (`gmds.matching.notes`), versions, timings, as JSON.
     confidence : float64 array of shape (n,)
         The probability that the point is within 0.05 root areas of the truth (`gmds.maps.confidence`): 0 where not
         `valid`, NaN everywhere where nobody rated the map.
@@ -115,6 +115,11 @@ class Correspondence:
         return covered(self)
 
     @property
+    def stress(self) -> float:
+        """Mean |d_S - d_Q| between samples over mean d_S (sec. 5), as `match` measured it; NaN where nobody did."""
+        return float(self.meta.get("evidence", {}).get("stress", np.nan))
+
+    @property
     def overlap(self) -> tuple[float, float]:
         """The shares in [0, 1] of the area of the source that is valid, and of that of the target that is covered."""
         return overlap(self)
@@ -136,6 +141,7 @@ class Correspondence:
         """Values per target vertex as values per source vertex, (n,) or (n, c).
 
         Numbers and colours are interpolated on the triangle; labels take the value with the largest weight.
+        Raises `MapError` when there is not one value per target vertex.
 
         Parameters
         ----------
@@ -145,12 +151,7 @@ class Correspondence:
             Whether they are labels, which keep their dtype. Unless given, integers, booleans and strings are, except
             uint8 with 3 or 4 columns, which are colours.
         fill : optional
-            What goes into the rows that are not `valid`; without it they hold whatever their point says.
-
-        Raises
-        ------
-        MapError
-            When there is not one value per target vertex."""
+            What goes into the rows that are not `valid`; without it they hold whatever their point says."""
         moved = carry(self.points, np.asarray(values), labels)
         if fill is not None:
             moved[~self.valid] = fill
@@ -159,10 +160,10 @@ class Correspondence:
     def inverse(self) -> Correspondence:
         """The map from target to source, without candidates.
 
-        Each target vertex takes the nearest point of the images of the source triangles (see
-        `gmds.maps.images.preimage`); a vertex map that is one to one is inverted exactly. A vertex is not `valid` when
-        that is further than 0.05 sqrt(target area), or when it is on no face. Distortion is that of the source point
-        plus the distance to the image over sqrt(target area); confidence is that of the source point."""
+        Each target vertex takes the nearest point of the images of the source triangles (`gmds.maps.images.preimage`);
+        a vertex map that is one to one is inverted exactly. A vertex is not `valid` when that is further than 0.05
+        sqrt(target area), or when it is on no face. Distortion adds the distance to the image over sqrt(target area).
+        """
         return Correspondence(self.target, self.source, status=self.status, meta=self.meta, **inverted(self))
 
     def compose(self, other: Correspondence) -> Correspondence:
@@ -191,8 +192,7 @@ class Correspondence:
     def load(cls, path: str | os.PathLike[str], source: Mesh, target: Mesh) -> Correspondence:
         """Read a map.npz that belongs to these two meshes.
 
-        Raises `OSError`, or `FormatError` with code E210 (members), E211 (arrays), E212 (other meshes), E213 (version)
-        or E220 (pickled)."""
+        Raises `OSError`, or `FormatError`: E210 members, E211 arrays, E212 other meshes, E213 version, E220 pickled."""
         read = read_map(path, source, target)
         try:
             return cls(source, target, **attributes(target, *read))

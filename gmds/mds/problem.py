@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -71,21 +71,17 @@ class Problem:
         if not (lengths[reached] > 0).any():
             raise BadArgument("a problem needs at least two samples at a positive, finite distance from each other")
         first, second, lengths = first[reached], second[reached], lengths[reached]
-        values = {
-            "source_points": source_points,
-            "target_distance": target_distance,
-            "first": first,
-            "second": second,
-            "source_distances": lengths,
-            "root_weights": np.sqrt(_pair_weights(weights, first, second, count)),
-            "unit": float(lengths.mean()),
-        }
-        for name, value in values.items():
-            object.__setattr__(self, name, value)
+        root_weights = np.sqrt(_pair_weights(weights, first, second, count))
+        values = (source_points, target_distance, first, second, lengths, root_weights, float(lengths.mean()))
+        for column, value in zip(fields(self), values, strict=True):
+            object.__setattr__(self, column.name, value)
 
     def __len__(self) -> int:
         """Number of samples p."""
         return len(self.source_points)
+
+    def __repr__(self) -> str:
+        return f"Problem({len(self)} samples, {len(self.first)} pairs, into {self.target_distance!r})"
 
     def towards(self, target_distance: Distance) -> Problem:
         """The same samples and source distances, placed by another distance of the target."""

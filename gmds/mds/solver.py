@@ -49,6 +49,10 @@ class Solution:
     certificate_radius: float
     iterations: int
 
+    def __repr__(self) -> str:
+        words = f"{len(self.points)} points, stress {self.stress:.4g}, certificate {self.certificate:.2g}"
+        return f"Solution({words}, {self.status.name} after {self.iterations})"
+
 
 def solve(
     problem: Problem,

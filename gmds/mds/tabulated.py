@@ -72,6 +72,9 @@ class TabulatedDistance:
         object.__setattr__(self, "embedding", np.concatenate([block for block, _ in blocks], axis=1))
         object.__setattr__(self, "signature", np.concatenate([sign for _, sign in blocks]))
 
+    def __repr__(self) -> str:
+        return f"TabulatedDistance({self.embedding.shape[1]} coordinates of {self.distance!r})"
+
     @property
     def mesh(self) -> Mesh:
         """The mesh whose vertices distances are given at."""

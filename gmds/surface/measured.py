@@ -48,6 +48,9 @@ class Surface:
     turned: bool = False
     clean: CleanCopy | None = None
 
+    def __repr__(self) -> str:
+        return f"Surface(unit area, {self.mesh!r})"
+
     @property
     def given(self) -> Mesh:
         """The mesh that was measured, as it was given."""

@@ -24,6 +24,9 @@ class View:
     mesh: Mesh
     spectrum: Spectrum
 
+    def __repr__(self) -> str:
+        return f"View({self.spectrum!r})"
+
     @classmethod
     def of(cls, spectrum: Spectrum) -> View:
         """The view of a spectrum, whatever the area of its metric."""

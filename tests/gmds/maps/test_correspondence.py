@@ -54,6 +54,7 @@ def test_vertices_on_no_face_are_not_valid() -> None:
     source = with_isolated(icosphere(1))
     answer = Correspondence.from_points(source, random_points(icosphere(2), source.n_vertices))
     assert (~answer.valid).sum() == 3
+    assert np.isnan(answer.stress)  # nobody measured it
 
 
 def test_every_status_is_a_sentence_and_ranked() -> None:

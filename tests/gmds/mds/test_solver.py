@@ -231,6 +231,7 @@ def test_iteration_limit_is_told(commute: Distance) -> None:
     assert found.status is Status.ITERATION_LIMIT
     assert found.iterations == 1 and found.certificate == np.inf
     assert all(" " in status.value for status in Status)
+    assert repr(found).startswith("Solution(20 points, stress ") and "\n" not in repr(Problem(commute, points, commute))
 
 
 class Broken:

@@ -1,0 +1,101 @@
+"""A surface, and values on it, as a figure to be turned."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from geodesics.distance import as_points
+from geodesics.errors import BadShape, MissingExtra
+from geodesics.extras import how_to_install
+from geodesics.mesh import Mesh
+from geodesics.points import SurfacePoints
+
+# all set by hand
+COLOURS = "Cividis"  # told apart by people who confuse red and green
+PLAIN = "rgb(190,200,215)"
+POINT_COLOUR = "rgb(200,60,0)"
+POINT_SIZE = 5  # pixels
+LIGHT = {"ambient": 0.55, "diffuse": 0.6, "specular": 0.1, "roughness": 0.8}
+
+
+def plot(
+    mesh: Mesh,
+    values: ArrayLike | None = None,
+    *,
+    points: SurfacePoints | ArrayLike | None = None,
+    title: str = "",
+    up: tuple[float, float, float] = (0, 0, 1),
+) -> Any:
+    """A surface coloured by values at its vertices, to be turned with the mouse: last in a notebook cell it is shown.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The surface, of n vertices.
+    values : array_like of shape (n,) or (n, 3), optional
+        A number for each vertex (a distance, an eigenfunction, a signature at one time), with a bar of colours; what
+        is not finite is drawn at the lower end. Or red, green and blue for each, from 0 to 1.
+    points : SurfacePoints or array_like of int, optional
+        Points, or vertices, to be marked.
+    title : str
+        Above it.
+    up : three floats
+        What is up in the coordinates of the mesh.
+
+    Returns
+    -------
+    plotly.graph_objects.Figure
+        ``.show()`` opens it in a browser, ``.write_html(path)`` keeps it.
+
+    Raises
+    ------
+    MeshError
+        E108 when there is not one value for each vertex; E105 for points that do not exist.
+    MissingExtra
+        E602, without the extra `viz`.
+
+    See Also
+    --------
+    gmds.pictures.write_values : A picture in a file, of several surfaces side by side.
+    """
+    try:
+        import plotly.graph_objects as go
+    except ImportError as error:
+        raise MissingExtra(f"a plot needs plotly; install it with: {how_to_install('viz')}") from error
+
+    mesh = Mesh.from_object(mesh)
+    corners = {name: mesh.faces[:, k] for k, name in enumerate("ijk")}
+    looks = {"lighting": LIGHT, "flatshading": False, "hovertemplate": "vertex %{text}<extra></extra>"}
+    surface = go.Mesh3d(**_axes(mesh.vertices), **corners, text=np.arange(mesh.n_vertices), **looks)
+    surface.update(_colours(values, mesh.n_vertices))
+    figure = go.Figure(surface)
+    if points is not None:
+        marker = {"size": POINT_SIZE, "color": POINT_COLOUR}
+        figure.add_scatter3d(**_axes(as_points(mesh, points).positions), mode="markers", marker=marker, name="points")
+    hidden = {f"{axis}axis": {"visible": False} for axis in "xyz"}
+    camera = {"up": dict(zip("xyz", up, strict=True))}
+    figure.update_layout(title=title, scene={"aspectmode": "data", "camera": camera, **hidden})
+    figure.update_layout(margin={"l": 0, "r": 0, "t": 40 if title else 0, "b": 0}, showlegend=False)
+    return figure
+
+
+def _axes(positions: Any) -> dict[str, Any]:
+    return dict(zip("xyz", positions.T, strict=True))
+
+
+def _colours(values: ArrayLike | None, count: int) -> dict[str, Any]:
+    """What tells plotly the colours of the vertices."""
+    if values is None:
+        return {"color": PLAIN}
+    v = np.asarray(values, dtype=np.float64)
+    if v.shape == (count, 3):
+        return {"vertexcolor": [f"rgb({r:.0f},{g:.0f},{b:.0f})" for r, g, b in 255 * np.clip(v, 0, 1)]}
+    if v.shape != (count,):
+        raise BadShape(f"values must be {count} numbers, one for each vertex, or {count} colours, not shape {v.shape}")
+    finite = v[np.isfinite(v)]
+    low = finite.min() if len(finite) else 0.0
+    told = "vertex %{text}: %{intensity:.4g}<extra></extra>"
+    return {"intensity": np.where(np.isfinite(v), v, low), "colorscale": COLOURS, "hovertemplate": told}

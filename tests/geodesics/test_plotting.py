@@ -1,0 +1,41 @@
+"""Figures hold what they were given."""
+
+from __future__ import annotations
+
+import sys
+
+import numpy as np
+import pytest
+from generated_shapes import bumpy_sphere
+
+import geodesics
+from geodesics.errors import BadShape, MissingExtra
+
+MESH = bumpy_sphere(1)
+
+
+def test_a_figure_has_the_surface_its_values_and_points() -> None:
+    pytest.importorskip("plotly")
+    values = MESH.vertices[:, 2].copy()
+    values[4] = np.inf
+    figure = geodesics.plot(MESH, values, points=[0, 7], title="height")
+    surface, points = figure.data
+    assert np.array_equal(np.stack([surface.x, surface.y, surface.z], axis=1), MESH.vertices)
+    assert np.array_equal(np.stack([surface.i, surface.j, surface.k], axis=1), MESH.faces)
+    finite = np.delete(values, 4)
+    assert np.array_equal(np.delete(surface.intensity, 4), finite) and surface.intensity[4] == finite.min()
+    assert np.allclose(np.stack([points.x, points.y, points.z], axis=1), MESH.vertices[[0, 7]])
+    assert figure.layout.title.text == "height" and figure.layout.scene.aspectmode == "data"
+
+
+def test_colours_and_bad_values() -> None:
+    pytest.importorskip("plotly")
+    assert geodesics.plot(MESH, np.ones((MESH.n_vertices, 3))).data[0].vertexcolor[0] == "rgb(255,255,255)"
+    with pytest.raises(BadShape, match="one for each vertex"):
+        geodesics.plot(MESH, [1.0, 2.0])
+
+
+def test_without_plotly_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "plotly.graph_objects", None)
+    with pytest.raises(MissingExtra, match="viz"):
+        geodesics.plot(MESH)
