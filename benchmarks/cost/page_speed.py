@@ -23,10 +23,10 @@ from geodesics import SurfacePoints
 
 SIZES = {5_000: 0, 12_500: 1}  # vertices of a built-in shape: how often its faces are split into four
 MEDIAN = """async (act) => {
-    const times = [], scene = gmdsPage.scenes[0], plot = document.querySelectorAll('.plot')[0];
+    const times = [], scene = gmdsPage.scenes[0];
     const acts = {
         mark: (i) => gmdsPage.mark({side: 0, vertex: scene.vertexAt(150 + 8 * i, 200) + 1}),
-        turn: (i) => Plotly.relayout(plot, {'scene.camera.eye': {x: 2 * Math.cos(i), y: 2 * Math.sin(i), z: 0.3}}),
+        turn: (i) => scene.look(rotated(scene.camera, i + 1, 0)),
     };
     for (let i = 0; i < 20; i++) {
         const start = performance.now();

@@ -16,56 +16,53 @@ from gmds.maps.overlap import reach
 from gmds.maps.point_map import Candidate, MatchStatus, PointMap
 from gmds.pictures.colours import MISSING, nearest_known, position_colours, shown_range, value_colours
 from gmds.report.drawing import Drawing
+from gmds.report.landmarks import Both, NamedPair, landmarks_of, places
+from gmds.report.modes import TOPS, modes
 from gmds.report.packing import levels, small
-
-Both = tuple[Drawing, Drawing]
+from gmds.report.told import told
 
 BARS = 40  # of a histogram; set by hand
 THRESHOLDS = np.linspace(0, 0.25, 51)  # errors, over the root of the area: the range in which the field draws curves
-UNMATCHED_COLOUR = (0.93, 0.60, 0.20)  # sRGB, orange: without a counterpart
-MATCHED_COLOUR = (0.28, 0.47, 0.72)  # sRGB, blue: with one
-MATCH = (
-    "A point and its partner on the other surface have the same colour. Look for a part that has the colour of "
-    "another part, a left leg that of a right leg, say: there the map is wrong."
-)
-VALID = "Which points of either surface have a partner. Those without are on a part that the other surface lacks."
-DISTORTION = (
-    "By what share lengths around a point change. Where one animal has a longer neck than the other, they have to."
-)
-DOUBT = (
-    "How likely a point is off the truth by more than 0.05 of the root of the area of the target, 1 less the "
-    "confidence: yellow is where to look first."
-)
-ERROR = (
-    "How far a point is sent from its true place, along the target, over the square root of its area: dark blue is "
-    "right, yellow is wrong."
-)
-SPARSE = " The truth is known at {} points; all others have the colour of the nearest of them."
+FEW = 2_000  # points with known truth, up to which they are drawn as dots; set by hand
 
 
-def content(answer: PointMap, errors: Floats | None, drawn: Both, names: Sequence[str]) -> dict[str, Any]:
+def content(
+    answer: PointMap,
+    errors: Floats | None,
+    drawn: Both,
+    names: Sequence[str],
+    landmarks: Sequence[NamedPair] | None = None,
+) -> dict[str, Any]:
     """All that the script of the page reads.
 
     `errors` (k, n): of the map and of its candidates, as far as they are known, NaN where the truth is not.
     """
-    maps = _maps(answer)
-    rows: list[Floats | None] = [None] * len(maps) if errors is None else [*errors, *[None] * (len(maps) - len(errors))]
-    fields = [_fields(one, row) for one, row in zip(maps, rows, strict=True)]
-    modes = _modes(fields[0], len(answer.source.vertices))
-    tops = {mode["key"]: mode["high"] for mode in modes if "high" in mode}
-    colours = position_colours(answer.target.vertices)
+    maps = maps_content(answer, errors, drawn)
+    known = [key for key in TOPS if any(key in one["values"] for one in maps)]
+    given = landmarks_of(answer) if landmarks is None else landmarks
     return {
         "surfaces": [_surface(one, name) for one, name in zip(drawn, names, strict=True)],
-        "modes": modes,
-        "maps": [
-            {"name": name, "note": note, **_map(one, drawn, colours, values, tops)}
-            for (name, note), one, values in zip(_names(answer), maps, fields, strict=True)
-        ],
-        "colours": levels(colours[drawn[1].origin]),
+        "modes": modes(known, errors),
+        "maps": maps,
+        "landmarks": [{"name": name, "at": places(at, drawn)} for name, *at in given],
+        "colours": levels(position_colours(answer.target.vertices)[drawn[1].origin]),
         "ramp": levels(value_colours(np.linspace(0, 1, 128), 0, 1)),
         "missing": levels(np.array(MISSING)).tolist(),
         "thresholds": THRESHOLDS.tolist(),
     }
+
+
+def maps_content(answer: PointMap, errors: Floats | None, drawn: Both, title: str = "") -> list[dict[str, Any]]:
+    """What the script reads of a map and of each of its candidates; `title` is what the map is called."""
+    maps = _maps(answer)
+    rows: list[Floats | None] = [None] * len(maps) if errors is None else [*errors, *[None] * (len(maps) - len(errors))]
+    fields = [_fields(one, row) for one, row in zip(maps, rows, strict=True)]
+    colours = position_colours(answer.target.vertices)
+    words = told(answer, errors)
+    return [
+        {"name": name, "note": note, "told": of_it.as_data(), **_map(one, drawn, colours, values)}
+        for (name, note), one, values, of_it in zip(_names(answer, title), maps, fields, words, strict=True)
+    ]
 
 
 class _CandidateMap(NamedTuple):
@@ -96,12 +93,13 @@ def _maps(answer: PointMap) -> list[PointMap]:
     return [answer, *others]
 
 
-def _names(answer: PointMap) -> list[tuple[str, str]]:
+def _names(answer: PointMap, title: str) -> list[tuple[str, str]]:
     """A name and a sentence for the map and for each of its candidates."""
-    names = [("Best map", "")]
+    names = [(title or "Best map", "")]
     for i, one in enumerate(answer.candidates, start=1):
         kind = "mirrored" if one.orientation < -0.2 else "not mirrored" if one.orientation > 0.2 else "partly mirrored"
-        names.append((f"Candidate {i}, {kind}", "Counterparts are taken to be those of the best map."))
+        called = f"{title}, candidate {i}" if title else f"Candidate {i}"
+        names.append((f"{called}, {kind}", "Counterparts are taken to be those of the best map."))
     return names
 
 
@@ -109,7 +107,7 @@ def _fields(one: PointMap, errors: Floats | None) -> dict[str, Floats]:
     """What is known per source vertex (n,) of a map; NaN where it is not."""
     fields = {}
     if not np.isnan(one.confidence).all():
-        fields["doubt"] = np.where(one.valid, 1 - one.confidence, np.nan)
+        fields["confidence"] = np.where(one.valid, one.confidence, np.nan)
     if np.ptp(one.distortion) > 0:
         fields["distortion"] = np.where(one.valid, one.distortion, np.nan)
     if errors is not None and np.isfinite(errors).any():
@@ -117,35 +115,14 @@ def _fields(one: PointMap, errors: Floats | None) -> dict[str, Floats]:
     return fields
 
 
-def _modes(fields: Mapping[str, Floats], n_vertices: int) -> list[dict[str, Any]]:
-    """The ways of colouring: what they are called, what they mean, and the range of what they show."""
-    modes: list[dict[str, Any]] = [{"key": "match", "label": "Matching colours", "help": MATCH}]
-    for key, label, meaning, axis in (
-        ("doubt", "Doubt", DOUBT, "doubt: probability of being off by more than 0.05 √area"),
-        ("distortion", "Distortion", DISTORTION, "distortion: relative error of lengths"),
-        ("error", "Error", ERROR, "error: distance from the true point / √area"),
-    ):
-        if key in fields:
-            known = fields[key][np.isfinite(fields[key])]
-            top = 1.0 if key == "doubt" else shown_range(known)[1] or float(known.max()) or 1.0
-            sparse = SPARSE.format(f"{len(known):,}") if key == "error" and len(known) < n_vertices // 2 else ""
-            counted = "points" if sparse else "vertices"
-            about = {"key": key, "label": label, "help": meaning + sparse, "axis": axis, "counted": counted}
-            modes.append({**about, "high": top, "beyond": bool((known > top).any())})
-    swatches = levels(np.array([UNMATCHED_COLOUR, MATCHED_COLOUR])).tolist()
-    judged = sum(key in fields for key in ("doubt", "distortion"))
-    modes.insert(1 + judged, {"key": "valid", "label": "Counterparts", "help": VALID, "swatches": swatches})
-    return modes
-
-
 def _surface(drawn: Drawing, name: str) -> dict[str, Any]:
     faces, origin = small(drawn.faces), small(drawn.origin)
-    return {"name": name, "vertices": drawn.placed(drawn.vertices), "faces": faces, "origin": origin}
+    turned = (drawn.axes * drawn.unit).ravel().tolist()
+    about = {"name": name, "axes": turned, "unit": drawn.unit}
+    return {**about, "vertices": drawn.placed(drawn.vertices), "faces": faces, "origin": origin}
 
 
-def _map(
-    one: PointMap, drawn: Both, target_colours: Floats, fields: Mapping[str, Floats], tops: Mapping[str, float]
-) -> dict[str, Any]:
+def _map(one: PointMap, drawn: Both, target_colours: Floats, fields: Mapping[str, Floats]) -> dict[str, Any]:
     """Where each drawn vertex goes, there and back, and what the colours of the surfaces stand for."""
     (ours, theirs), (here, there) = drawn, (drawn[0].origin, drawn[1].origin)
     points, gap = preimage(one, there)
@@ -157,14 +134,34 @@ def _map(
         full = nearest_known(one.source, fields[key]) if key == "error" else fields[key]
         back = np.where(reached, points.interpolate(full), np.nan)
         values[key] = [full[here].astype("<f4"), back.astype("<f4")]
+    tops = {key: _fitted(key, fields[key]) for key in fields}
     return {
         "there": _images(one.points[here], one.valid[here], theirs),
         "back": _images(points, reached, ours),
         "colours": levels(colours[here]),
         "values": values,
-        "histograms": {key: _histogram(fields[key], tops[key]) for key in fields if key in tops},
+        "tops": tops,
+        "largest": {key: float(np.nanmax(fields[key], initial=0.0)) for key in fields},
+        "histograms": {key: [_histogram(fields[key], top) for top in (TOPS[key], tops[key])] for key in fields},
         "curve": _curve(fields["error"]) if "error" in fields else None,
+        "dots": _dots(one.source, fields.get("error"), ours),
     }
+
+
+def _fitted(key: str, values: Floats) -> float:
+    """Where the scale of a map ends that is made to fit it."""
+    known = values[np.isfinite(values)]
+    if key == "confidence" or not len(known):
+        return TOPS[key]
+    return shown_range(known)[1] or float(known.max()) or TOPS[key]
+
+
+def _dots(source: Mesh, errors: Floats | None, drawn: Drawing) -> dict[str, Any] | None:
+    """The points whose truth is known and their errors, where they are few."""
+    known = np.empty(0, dtype=np.int64) if errors is None else np.flatnonzero(np.isfinite(errors))
+    if errors is None or not 0 < len(known) <= min(FEW, source.n_vertices // 2):
+        return None
+    return {"position": drawn.placed(source.vertices[known]), "error": errors[known].astype("<f4")}
 
 
 def _histogram(values: Floats, top: float) -> list[int]:

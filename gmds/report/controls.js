@@ -9,69 +9,108 @@ const KEYS = {
   "+": (c) => zoomed(c, 0.85), "=": (c) => zoomed(c, 0.85), "-": (c) => zoomed(c, 1 / 0.85),
 };
 
-function link(page) {
-  page.scenes.forEach((scene, side) => {
-    scene.moved = () => {
-      const other = page.scenes[1 - side];
-      if (at("together").checked) other.look(scene.camera);
-      page.placeMarks();
-    };
+// a scene looks where its panel is turned to, and the others with it
+function link(page, scene) {
+  scene.moved = () => {
+    if (at("together").checked || scene === page.scenes[2]) page.scenes.forEach((other) => other.look(scene.camera));
+    else if (scene === page.scenes[0] && page.scenes[2]) page.scenes[2].look(scene.camera);
+    page.marks.moved();
+    page.changed();
+  };
+}
+
+function point(page, scene, panel) {
+  const side = panel === 1 ? 1 : 0;
+  const under = (event) => {
+    const box = scene.plot.getBoundingClientRect();
+    const hit = scene.hit(event.clientX - box.left, event.clientY - box.top);
+    return hit && { side, vertex: hit.vertex, panel, hit };
+  };
+  let waiting = null;
+  scene.under = under;
+  scene.plot.addEventListener("pointermove", (event) => {
+    if (event.buttons) return;
+    if (!waiting) requestAnimationFrame(() => { page.mark(under(waiting)); waiting = null; });
+    waiting = event;
+  });
+  scene.panel.addEventListener("pointerleave", () => page.mark(null));
+  handle(scene, (event) => {
+    const found = under(event);
+    if (!(page.work && page.work.clicked(found)) && found) page.pin(found);
+  });
+  scene.panel.addEventListener("keydown", (event) => {
+    const move = KEYS[event.key];
+    if (!move || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    scene.look(move(scene.camera));
+  });
+  link(page, scene);
+}
+
+// the source once more, with another map
+function showBeside(page) {
+  const map = at("beside").value === "" ? null : page.data.maps[Number(at("beside").value)];
+  at("panel-2").hidden = !map;
+  at("stage").classList.toggle("three", Boolean(map));
+  if (map && !page.scenes[2]) {
+    page.scenes[2] = page.kept || new Scene(at("panel-2"), page.surfaces[2]);
+    if (!page.kept) point(page, page.scenes[2], 2);
+    page.kept = page.scenes[2];
+    page.scenes[2].look(page.scenes[0].camera);
+  } else if (!map) page.scenes.length = 2;
+  if (map) at("beside-name").textContent = map.name;
+  page.scenes.forEach((scene) => scene.resized());
+  options(page);
+  page.show();
+}
+
+function options(page) {
+  page.scenes.forEach((scene) => {
+    scene.options = { wireframe: at("wireframe").checked, squares: at("squares").checked && page.mode.key === "match" ? SQUARES : 0 };
+    scene.render();
   });
 }
 
-function point(page) {
-  page.scenes.forEach((scene, side) => {
-    const under = (event) => {
-      const box = scene.plot.getBoundingClientRect();
-      const vertex = scene.vertexAt(event.clientX - box.left, event.clientY - box.top);
-      return vertex < 0 ? null : { side, vertex };
-    };
-    let waiting = null;
-    let pressed = null;
-    const hover = (event) => {
-      if (page.pinned || event.buttons) return;
-      if (!waiting) requestAnimationFrame(() => { page.mark(under(waiting)); waiting = null; });
-      waiting = event;
-    };
-    // plotly keeps these events to itself once they reach its canvas
-    scene.panel.addEventListener("pointermove", hover, true);
-    scene.panel.addEventListener("pointerleave", () => { if (!page.pinned) page.mark(null); });
-    scene.panel.addEventListener("pointerdown", (event) => { pressed = [event.clientX, event.clientY]; }, true);
-    scene.panel.addEventListener("pointerup", (event) => {
-      const still = pressed && Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) < 4;
-      if (still) page.pin(under(event));
-    }, true);
-    scene.panel.addEventListener("keydown", (event) => {
-      const move = KEYS[event.key];
-      if (!move || event.ctrlKey || event.metaKey || event.altKey) return;
-      event.preventDefault();
-      scene.look(move(scene.camera));
-    });
-  });
+function listMaps(page) {
+  const chosen = [at("map").selectedIndex, at("beside").value];
+  at("map").replaceChildren(...page.data.maps.map((map) => new Option(map.name)));
+  at("beside").replaceChildren(new Option("nothing", ""), ...page.data.maps.map((map, i) => new Option(map.name, i)));
+  at("map").selectedIndex = Math.max(chosen[0], 0);
+  at("beside").value = chosen[1];
+  for (const id of ["map-choice", "beside-choice"]) at(id).hidden = page.data.maps.length < 2;
 }
 
 function choose(page) {
   const both = (camera) => page.scenes.forEach((scene) => scene.look(camera(scene.camera)));
   const from = (camera) => both(() => fitted(page.scenes, camera));
-  page.data.maps.forEach((map) => at("map").add(new Option(map.name)));
-  at("map-choice").hidden = page.data.maps.length < 2;
-  at("map").addEventListener("change", () => page.show());
-  document.querySelectorAll("input[name=mode]").forEach((input) => input.addEventListener("change", () => page.show()));
+  const show = () => { options(page); page.show(); };
+  listMaps(page);
+  ["map", "fit"].forEach((id) => at(id).addEventListener("change", show));
+  at("beside").addEventListener("change", () => showBeside(page));
+  document.querySelectorAll("input[name=mode]").forEach((input) => input.addEventListener("change", show));
+  ["squares", "wireframe"].forEach((id) => at(id).addEventListener("change", () => { options(page); page.changed(); }));
+  at("morph").addEventListener("input", () => { page.morph(); page.marks.draw(); page.changed(); });
+  at("named").addEventListener("change", () => page.marks.draw());
+  at("named-choice").hidden = !page.landmarks.length && !page.data.work;
   document.querySelectorAll("[data-side]").forEach((button) =>
     button.addEventListener("click", () => from(rotated(LEVEL, ...SIDES[button.dataset.side]))));
   at("reset").addEventListener("click", () => from(FIRST));
   at("roll").addEventListener("click", () => both((camera) => rolled(camera, Math.PI / 2)));
-  at("largest").addEventListener("click", () => page.goToLargest());
+  at("largest").addEventListener("click", () => page.goToWorst());
   at("go").addEventListener("submit", (event) => {
     event.preventDefault();
     page.goTo(Number(at("go-side").value), Number(at("go-vertex").value));
   });
-  document.addEventListener("keydown", (event) => { if (event.key === "Escape") page.pin(null); });
-  addEventListener("resize", () => {
-    page.scenes.forEach((scene) => scene.resized());
-    page.placeMarks();
+  at("save-pins").addEventListener("click", () => offer(new Blob([pinsTable(page)], { type: "text/csv" }), "pairs.csv"));
+  at("drop-pins").addEventListener("click", () => page.pin(null));
+  at("save-view").addEventListener("click", async () => offer(await viewPicture(page), "view.png"));
+  at("copy-link").addEventListener("click", async () => {
+    history.replaceState(null, "", `#${stateOf(page)}`);
+    await navigator.clipboard.writeText(location.href).catch(() => {});
   });
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => page.drawCharts());
+  document.addEventListener("keydown", (event) => { if (event.key === "Escape" && !(page.work && page.work.escaped())) page.pin(null); });
+  new ResizeObserver(() => { page.scenes.forEach((scene) => scene.resized()); page.marks.draw(); }).observe(at("stage"));
+  addEventListener("beforeprint", () => page.scenes.forEach((scene) => { scene.drawNow(); }));
 }
 
 function fail(message) {
@@ -82,18 +121,20 @@ function fail(message) {
 
 async function start() {
   if (!("DecompressionStream" in window)) return fail("This page needs a newer browser: one from 2023 or later.");
-  if (!document.createElement("canvas").getContext("webgl")) {
+  if (!document.createElement("canvas").getContext("webgl2")) {
     return fail("This browser cannot draw in 3-D (WebGL is off). The figures and tables below can still be read.");
   }
-  const [data] = await Promise.all([unpackedData("data"), runLibrary("library")]);
-  const page = new Page(data);
+  const page = new Page(await unpackedText(at("data").textContent));
   window.gmdsPage = page;
   choose(page);
-  page.scenes.forEach((scene) => { scene.camera = fitted(page.scenes, FIRST); });
-  await Promise.all([page.scenes[0].draw(page.colours(0)), page.scenes[1].draw(page.colours(1))]);
-  link(page);
-  point(page);
-  await page.show();
+  const first = fitted(page.scenes, FIRST);
+  page.scenes.forEach((scene, panel) => { scene.camera = first; scene.shown = null; point(page, scene, panel); });
+  if (location.hash.length > 1) restore(page, location.hash.slice(1));
+  showBeside(page);
+  if (page.data.work) page.work = new Work(page);
+  page.scenes.forEach((scene) => scene.drawNow());
+  let writing = 0;
+  page.changed = () => { clearTimeout(writing); writing = setTimeout(() => history.replaceState(null, "", `#${stateOf(page)}`), 400); };
   document.body.dataset.ready = "yes";
 }
 

@@ -33,6 +33,15 @@ class Drawing:
         """Points (p, 3) near the mesh where they are drawn: turned, in a ball of diameter one about the origin."""
         return ((np.asarray(points) - self.center) @ self.axes.T).astype(np.float32)
 
+    def given(self, drawn: Floats) -> Floats:
+        """Places (p, 3) of the mesh from where they are drawn, the opposite of `placed`."""
+        return np.asarray(drawn, dtype=np.float64) @ np.linalg.inv(self.axes).T + self.center
+
+    @property
+    def unit(self) -> float:
+        """How many units of the mesh one of the drawing is."""
+        return float(1 / np.linalg.norm(self.axes[0]))
+
 
 def drawing(mesh: Mesh, rotation: Floats) -> Drawing:
     """The mesh itself up to `MOST_VERTICES`; else a copy with about `SIMPLIFIED_VERTICES`."""

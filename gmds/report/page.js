@@ -1,20 +1,31 @@
-// The page: what is shown, what is pointed at, and the controls.
+// The page: which map and colours are shown, and what is pointed at.
 "use strict";
 
 const at = (id) => document.getElementById(id);
-const count = (n) => n.toLocaleString("en");
 const figure = (x) => (Number.isFinite(x) ? x.toPrecision(3) : "unknown");
+const figureShort = (x) => String(Number(x.toPrecision(3)));
+const made = (tag, ...children) => { const whole = document.createElement(tag); whole.append(...children); return whole; };
+const MOST_PINS = 20;
+const SQUARES = 14; // from one end of the target to the other
 
 class Page {
   constructor(data) {
     this.data = data;
-    this.scenes = data.surfaces.map((surface, side) => new Scene(at(`panel-${side}`), surface));
-    this.pinned = null; // {side, vertex}: stays marked while the surfaces are turned
+    this.surfaces = [data.surfaces[0], data.surfaces[1], data.surfaces[0]];
+    this.scenes = [0, 1].map((side) => new Scene(at(`panel-${side}`), this.surfaces[side]));
+    this.marks = new Marks(this);
+    this.pins = []; // {side, vertex}: stay marked while the surfaces are turned
     this.pointed = null;
+    this.landmarks = data.landmarks; // {name, at: [position on the source or null, on the target or null]}
+    this.scenes[1].give("place", data.surfaces[1].vertices);
   }
 
   get map() {
-    return this.data.maps[at("map").selectedIndex];
+    return this.data.maps[Math.max(at("map").selectedIndex, 0)];
+  }
+
+  get beside() {
+    return this.scenes[2] ? this.data.maps[Number(at("beside").value)] : null;
   }
 
   get mode() {
@@ -22,81 +33,126 @@ class Page {
     return this.data.modes.find((mode) => mode.key === key);
   }
 
-  // colours of the ramp at shares (n,) of it; grey where there is no value
-  ramp(share) {
+  // where the scale of a way of colouring ends, for a map
+  top(mode, map = this.map) {
+    return at("fit").checked && map.tops[mode.key] ? map.tops[mode.key] : mode.high;
+  }
+
+  // the colour of a value; grey where there is none
+  ramp(value, mode) {
     const { ramp, missing } = this.data;
-    if (!Number.isFinite(share)) return missing;
-    const step = 3 * Math.round(Math.min(Math.max(share, 0), 1) * (ramp.length / 3 - 1));
+    if (!Number.isFinite(value)) return missing;
+    const share = Math.min(Math.max(value / this.top(mode), 0), 1);
+    const step = 3 * Math.round((mode.reversed ? 1 - share : share) * (ramp.length / 3 - 1));
     return ramp.subarray(step, step + 3);
   }
 
-  colours(side) {
-    const { map, mode } = this;
-    if (mode.key === "match") return side === 0 ? map.colours : this.covered(this.data.colours);
-    const values = map.values[mode.key][side];
-    const rgb = new Uint8Array(3 * values.length);
-    values.forEach((value, i) => rgb.set(mode.swatches ? mode.swatches[value] : this.ramp(value / mode.high), 3 * i));
+  colours(side, map = this.map) {
+    const { mode } = this;
+    if (mode.key === "match") return side === 0 ? map.colours : this.covered(this.data.colours, map);
+    const values = map.values[mode.key];
+    if (!values) return new Uint8Array(this.surfaces[side].vertices.length).fill(158);
+    const rgb = new Uint8Array(3 * values[side].length);
+    values[side].forEach((value, i) => rgb.set(mode.swatches ? mode.swatches[value] : this.ramp(value, mode), 3 * i));
     return rgb;
   }
 
-  covered(colours) {
+  covered(colours, map) {
     // those of the target, grey where it has no counterpart
     const rgb = Uint8Array.from(colours);
-    this.map.values.valid[1].forEach((is, i) => is || rgb.set(this.data.missing, 3 * i));
+    map.values.valid[1].forEach((is, i) => is || rgb.set(this.data.missing, 3 * i));
     return rgb;
   }
 
-  async show() {
+  show() {
     for (const input of document.querySelectorAll("input[name=mode]")) {
       const known = input.value === "match" || input.value in this.map.values;
       input.disabled = !known;
-      input.parentElement.title = known ? "" : "Known for the best map only";
+      input.parentElement.title = known ? "" : "Not known for this map";
       if (!known && input.checked) document.querySelector("input[name=mode]").checked = true;
     }
     this.tell();
+    this.legend();
+    this.paint();
+    this.drawCharts();
+    this.mark(this.pointed);
+    this.listPins();
+  }
+
+  paint() {
+    this.scenes[0].paint(this.colours(0));
+    this.scenes[1].paint(this.colours(1));
+    [this.map, , this.beside].forEach((map, side) => {
+      const scene = this.scenes[side];
+      if (!scene || !map) return;
+      if (side === 2) scene.paint(this.colours(0, map));
+      scene.give("place", this.images(map));
+      const dots = this.mode.key === "error" && map.dots ? map.dots : { position: [], error: [] };
+      scene.give("dot", Float32Array.from(dots.position));
+      scene.give("dotColour", Uint8Array.from(Array.from(dots.error, (e) => Array.from(this.ramp(e, this.mode))).flat()));
+    });
+    this.morph();
+  }
+
+  // where the vertices of the source go, as the target is drawn
+  images(map) {
+    map.images = map.images || Float32Array.from(map.there.position, (c) => c / 65535 - 0.5);
+    return map.images;
+  }
+
+  morph() {
+    const share = Number(at("morph").value);
+    const scene = this.scenes[0];
+    const own = this.surfaces[0].vertices;
+    const goal = this.images(this.map);
+    if (share || scene.positions !== own) scene.placeAt(share ? own.map((c, i) => (1 - share) * c + share * goal[i]) : own);
+  }
+
+  legend() {
     const { map, mode } = this;
     at("help").textContent = mode.help;
     at("note").textContent = map.note;
     at("legend-ramp").hidden = !mode.high;
     at("legend-valid").hidden = !mode.swatches;
-    if (mode.high) {
-      at("low").textContent = "0";
-      at("high").textContent = `${figure(mode.high)}${mode.beyond ? " and more" : ""}`;
-    }
-    await Promise.all([this.scenes[0].paint(this.colours(0)), this.scenes[1].paint(this.colours(1))]);
-    await this.drawCharts();
-    this.mark(this.pinned);
+    at("fit-choice").style.visibility = mode.high && mode.key in map.tops ? "" : "hidden";
+    at("largest").textContent = mode.reversed ? "Lowest" : "Largest";
+    at("largest").style.visibility = mode.high ? "" : "hidden";
+    if (!mode.high) return;
+    const top = this.top(mode);
+    at("legend-label").textContent = mode.unit;
+    at("low").textContent = "0";
+    at("high").textContent = `${figureShort(top)}${map.largest[mode.key] > top * 1.0001 ? " and more" : ""}`;
+    at("ramp").classList.toggle("reversed", Boolean(mode.reversed));
   }
 
   // the badge, the figures and the advice are those of the map that is shown
   tell() {
     const { told } = this.map;
-    const made = (tag, text) => Object.assign(document.createElement(tag), { textContent: text });
-    const both = (tag, first, second) => { const whole = document.createElement(tag); whole.append(first, second); return whole; };
     at("badge").className = `badge ${told.badge}`;
     at("badge").textContent = told.verdict;
     at("status").textContent = told.status;
     at("next").textContent = told.next;
-    at("cards").replaceChildren(...told.cards.map(([value, name]) => both("li", made("b", value), made("span", name))));
-    at("facts").replaceChildren(...told.facts.map(([name, value]) => both("tr", made("th", name), made("td", value))));
+    at("cards").replaceChildren(...told.cards.map(([value, name]) => made("li", made("b", value), made("span", name))));
+    at("facts").replaceChildren(...told.facts.map(([name, value]) => made("tr", made("th", name), made("td", value))));
   }
 
-  async drawCharts() {
+  drawCharts() {
     const { map, mode, data } = this;
-    const counts = map.histograms[mode.key];
-    at("histogram-part").hidden = !counts;
+    const spread = map.histograms[mode.key];
+    at("histogram-part").hidden = !spread;
     at("curve-part").hidden = !map.curve;
-    if (counts) {
+    if (spread) {
+      const high = this.top(mode);
       at("histogram-title").textContent = `How the ${mode.label.toLowerCase()} is spread`;
-      await drawHistogram(at("histogram"), mode, counts, (share) => `rgb(${Array.from(this.ramp(share))})`);
+      drawHistogram(at("histogram"), { ...mode, high, counts: spread[high === mode.high ? 0 : 1] }, (share) => `rgb(${Array.from(this.ramp(share * high, mode))})`);
     }
     const known = data.maps.filter((one) => one.curve);
     const curves = known.map((one) => ({ name: one.name, share: one.curve }));
-    if (map.curve) await drawCurves(at("curve"), data.thresholds, curves, known.indexOf(map));
+    if (map.curve) drawCurves(at("curve"), data.thresholds, curves, known.indexOf(map));
   }
 
-  partner(side, vertex) {
-    const images = side === 0 ? this.map.there : this.map.back;
+  partner(side, vertex, map = this.map) {
+    const images = side === 0 ? map.there : map.back;
     if (!images.found[vertex]) return null;
     return {
       face: images.face[vertex], vertex: images.vertex[vertex],
@@ -105,60 +161,59 @@ class Page {
     };
   }
 
+  // what is known of a vertex and its partner, in words
+  told({ side, vertex }) {
+    const partner = this.partner(side, vertex);
+    const [here, there] = [this.data.surfaces[side], this.data.surfaces[1 - side]];
+    const number = here.origin[vertex];
+    if (!partner) return `Vertex ${number} of ${here.name} has no counterpart on ${there.name}.`;
+    const hidden = this.scenes[1 - side].place(partner.position).hidden;
+    const values = this.data.modes.filter((mode) => mode.high && this.map.values[mode.key])
+      .map((mode) => ` ${mode.label} ${figure(this.map.values[mode.key][side][vertex])}.`).join("");
+    return `Vertex ${number} of ${here.name} goes to face ${partner.face} of ${there.name}, nearest vertex ${partner.vertex}, ` +
+      `weights ${partner.weights.map((w) => w.toFixed(3)).join(", ")}.${values}${hidden ? " It is on the far side (dashed)." : ""}`;
+  }
+
   // lights up a vertex and its partner; nothing when there is no such vertex
   mark(point) {
     this.pointed = point;
-    at("marks").toggleAttribute("hidden", !point);
     const readout = at("readout");
-    readout.setAttribute("aria-live", point && point === this.pinned ? "polite" : "off"); // hovering would chatter
+    this.marks.draw();
     if (!point) {
-      readout.textContent = "Point at either surface: its partner lights up on the other one. A click keeps the pair marked.";
+      readout.textContent = this.idle || "Point at either surface: its partner lights up on the other one. A click keeps the pair marked.";
       for (const key of Object.keys(readout.dataset)) delete readout.dataset[key];
       return;
     }
     const { side, vertex } = point;
     const partner = this.partner(side, vertex);
-    const [here, there] = [this.data.surfaces[side], this.data.surfaces[1 - side]];
-    this.placeMarks();
-    const number = here.origin[vertex];
-    const hidden = partner && this.scenes[1 - side].place(partner.position).hidden;
-    const values = this.data.modes.filter((mode) => mode.high && this.map.values[mode.key])
-      .map((mode) => ` ${mode.label}: ${figure(this.map.values[mode.key][side][vertex])}.`).join("");
-    readout.textContent = `Vertex ${number} of ${here.name}` + (partner
-      ? ` belongs to the point in face ${partner.face} of ${there.name}, nearest to its vertex ${partner.vertex}` +
-        ` (weights ${partner.weights.map((w) => w.toFixed(3)).join(", ")}).${values}${hidden ? " It is on the far side: turn the surface." : ""}`
-      : ` has no counterpart on ${there.name}.`);
-    Object.assign(readout.dataset, { side, vertex: number, face: partner ? partner.face : "",
+    readout.setAttribute("aria-live", point.kept ? "polite" : "off"); // hovering would chatter
+    readout.textContent = this.told(point);
+    Object.assign(readout.dataset, { side, vertex: this.data.surfaces[side].origin[vertex], face: partner ? partner.face : "",
       weights: partner ? partner.weights.join(" ") : "" });
   }
 
-  placeMarks() {
-    if (!this.pointed) return;
-    const { side, vertex } = this.pointed;
-    const partner = this.partner(side, vertex);
-    const stage = at("stage").getBoundingClientRect();
-    const ends = this.scenes.map((scene, i) => {
-      const point = i === side ? scene.vertex(vertex) : partner && partner.position;
-      const dot = at(`mark-${i}`);
-      dot.style.display = point ? "" : "none";
-      if (!point) return null;
-      const place = scene.place(point);
-      const box = scene.plot.getBoundingClientRect();
-      const [x, y] = [box.left - stage.left + place.x, box.top - stage.top + place.y];
-      dot.setAttribute("transform", `translate(${x} ${y})`);
-      dot.classList.toggle("hidden", place.hidden);
-      dot.classList.toggle("partner", i !== side);
-      return [x, y];
-    });
-    const line = at("mark-line");
-    line.style.display = ends[0] && ends[1] ? "" : "none";
-    if (ends[0] && ends[1]) line.setAttribute("d", `M${ends[0].join(" ")} L${ends[1].join(" ")}`);
+  pin(point) {
+    if (!point) this.pins = [];
+    else if (!this.pins.some((one) => one.side === point.side && one.vertex === point.vertex)) {
+      this.pins = [...this.pins.slice(-MOST_PINS + 1), { side: point.side, vertex: point.vertex }];
+    }
+    this.mark(point && { ...point, kept: true });
+    this.listPins();
   }
 
-  pin(point) {
-    this.pinned = point;
-    this.mark(point);
+  listPins() {
+    at("pin-part").hidden = !this.pins.length;
+    at("pin-table").replaceChildren(...this.pins.map((pin, i) => {
+      const drop = made("button", "×");
+      drop.type = "button";
+      drop.setAttribute("aria-label", `Let go of pair ${i + 1}`);
+      drop.addEventListener("click", () => { this.pins = this.pins.filter((one) => one !== pin); this.mark(null); this.listPins(); });
+      return made("tr", made("th", String(i + 1)), made("td", this.told(pin)), made("td", drop));
+    }));
+    this.changed();
   }
+
+  changed() {}
 
   // marks a vertex by its number in the file, for whoever has no pointer
   goTo(side, number) {
@@ -167,20 +222,25 @@ class Page {
     else at("readout").textContent = `Vertex ${number} is not among the points that are drawn of ${this.data.surfaces[side].name}.`;
   }
 
-  goToLargest() {
-    const values = this.map.values[this.mode.key][0];
-    const found = this.map.there.found;
+  // to what is worst: the largest value, or the lowest where low is bad
+  goToWorst() {
+    const { mode, map } = this;
+    const sign = mode.reversed ? -1 : 1;
     let most = -1;
-    values.forEach((value, i) => { if (found[i] && Number.isFinite(value) && !(value <= values[most])) most = i; });
+    map.values[mode.key][0].forEach((value, i, all) => { if (map.there.found[i] && Number.isFinite(value) && !(sign * value <= sign * all[most])) most = i; });
     if (most < 0) return;
+    this.turnTo(0, this.scenes[0].vertex(most));
     this.pin({ side: 0, vertex: most });
-    const scene = this.scenes[0];
-    const steps = Array.from({ length: 12 }, (_, i) => rotated(scene.camera, (i * Math.PI) / 6, 0));
-    const clear = steps.find((camera) => { // the first side from which it can be seen
-      const probe = new Scene(scene.panel, scene.surface);
-      probe.camera = camera;
-      return !probe.place(scene.vertex(most)).hidden;
-    });
-    if (clear) scene.look(clear);
+  }
+
+  // the first side from which a point of a panel can be seen
+  turnTo(side, position) {
+    const scene = this.scenes[side];
+    const kept = scene.camera;
+    const seen = (camera) => { scene.camera = camera; scene.shown = null; return !scene.place(position).hidden; };
+    const steps = Array.from({ length: 12 }, (_, i) => rotated(kept, (i * Math.PI) / 6, 0));
+    const clear = steps.find(seen) || kept;
+    seen(kept);
+    scene.look(clear);
   }
 }

@@ -2,30 +2,30 @@
 
 from __future__ import annotations
 
-import functools
 import html
 import os
+from collections.abc import Sequence
 from importlib.resources import files
 from string import Template
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from geodesics import Mesh
 from geodesics.arrays import Floats
-from geodesics.errors import BadArgument, MissingExtra
-from geodesics.extras import how_to_install
+from geodesics.errors import BadArgument
 from geodesics.io import atomic_write
 from gmds.maps.point_map import PointMap
 from gmds.pictures.camera import Direction, alignment, broadside
 from gmds.pictures.colours import MISSING, css, value_colours
 from gmds.report import tables
-from gmds.report.content import MATCHED_COLOUR, UNMATCHED_COLOUR, content
+from gmds.report.content import NamedPair, content
 from gmds.report.drawing import Drawing, drawing
-from gmds.report.packing import fingerprint_of, packed, packed_data
-from gmds.report.told import told
+from gmds.report.modes import MATCHED_COLOUR, UNMATCHED_COLOUR
+from gmds.report.packing import fingerprint_of, packed_data
 
-SCRIPTS = ("unpack.js", "camera.js", "scene.js", "charts.js", "page.js", "controls.js")
+SCRIPTS = ("unpack.js", "camera.js", "draw.js", "scene.js", "charts.js", "marks.js", "page.js", "out.js", "controls.js")
 
 
 def write_report(
@@ -36,6 +36,7 @@ def write_report(
     title: str = "Correspondence",
     names: tuple[str, str] = ("source", "target"),
     up: Direction = (0, 0, 1),
+    landmarks: Sequence[NamedPair] | None = None,
 ) -> None:
     """One self-contained HTML page on a map: both surfaces in 3-D, corresponding points in the same colour.
 
@@ -58,11 +59,11 @@ def write_report(
         Of source and target, likewise.
     up : three floats
         What is up in the source's coordinates. The target is turned to be seen from the same side.
+    landmarks : sequence of (str, position or None, position or None), optional
+        Names, and places (3,) on source and target, to be shown. Without them those that the map was made with.
 
     Raises
     ------
-    MissingExtra
-        E602, without the extra `viz`.
     ValueError
         For errors of another shape.
     OSError
@@ -72,41 +73,68 @@ def write_report(
     --------
     gmds.pictures.write_picture : A picture of the same.
     """
-    library = _library()
-    judged = _checked(errors, answer)
+    page = page_text(answer, _checked(errors, answer), drawings(answer, up), title, names, landmarks=landmarks)
+    with atomic_write(path) as stream:
+        stream.write(page.encode("utf-8", "replace"))
+
+
+class Work(NamedTuple):
+    """What a page to work in has that one to look at has not: scripts, style, controls, data, and whom it may ask."""
+
+    scripts: str = ""
+    style: str = ""
+    controls: str = ""
+    data: Any = None
+    policy: str = ""
+
+
+def drawings(answer: PointMap, up: Direction) -> tuple[Drawing, Drawing]:
+    """Both surfaces as they are drawn, the target seen from the same side as the source."""
     view = broadside(answer.source, up, azimuth=0, elevation=0)
-    drawn = drawing(answer.source, view), drawing(answer.target, view @ alignment(answer))
-    data = content(answer, judged, drawn, names)
-    script = "".join(_part(name) for name in SCRIPTS)
+    return drawing(answer.source, view), drawing(answer.target, view @ alignment(answer))
+
+
+def page_text(
+    answer: PointMap,
+    errors: Floats | None,
+    drawn: tuple[Drawing, Drawing],
+    title: str,
+    names: tuple[str, str],
+    *,
+    landmarks: Sequence[NamedPair] | None = None,
+    work: Work | None = None,
+) -> str:
+    """The whole page; `errors` (k, n) of the map and of its first candidates."""
+    work = work or Work()
+    data = {**content(answer, errors, drawn, names, landmarks), "work": work.data}
+    script = "".join(map(_part, SCRIPTS)).replace("\nstart().catch", f"\n{work.scripts}\nstart().catch")
     ramp = ", ".join(css(value_colours(np.linspace(0, 1, 10), 0, 1)))
     legend = np.array([MATCHED_COLOUR, UNMATCHED_COLOUR])
-    words = told(answer, judged)
-    for one, of_it in zip(data["maps"], words, strict=True):
-        one["told"] = of_it.as_data()
-    best = words[0]
-    page = Template(_part("report.html")).substitute(
-        hashes=f"{fingerprint_of(library)} {fingerprint_of(script)}",
-        style=Template(_part("report.css")).substitute(ramp=ramp, missing=css(np.array([MISSING]))[0]),
+    best = data["maps"][0]["told"]
+    return Template(_part("report.html")).substitute(
+        hashes=fingerprint_of(script),
+        policy=work.policy,
+        style=Template(_part("report.css")).substitute(ramp=ramp, missing=css(np.array([MISSING]))[0]) + work.style,
         title=html.escape(title),
-        badge=best.badge,
-        verdict=best.verdict,
-        status=html.escape(best.status),
-        cards=tables.cards(best.cards),
+        badge=best["badge"],
+        verdict=best["verdict"],
+        status=html.escape(best["status"]),
+        about_status=tables.about("status"),
+        cards=tables.cards(best["cards"]),
         modes=tables.choices([(mode["key"], mode["label"]) for mode in data["modes"]]),
         swatches=tables.swatches(zip(css(legend), ("has a counterpart", "has none"), strict=True)),
+        work=work.controls,
         source=html.escape(names[0]),
         target=html.escape(names[1]),
         source_size=_size(answer.source, drawn[0]),
         target_size=_size(answer.target, drawn[1]),
-        advice=tables.advice(best.next),
-        facts=tables.table_rows(best.facts),
+        advice=tables.advice(best["next"]),
+        words=tables.words(),
+        facts=tables.table_rows(best["facts"]),
         made=tables.made(answer),
         data=packed_data(data),
-        library=_packed_library(),
         script=script,
     )
-    with atomic_write(path) as stream:
-        stream.write(page.encode("utf-8", "replace"))
 
 
 def _checked(errors: ArrayLike | None, answer: PointMap) -> Floats | None:
@@ -131,17 +159,3 @@ def _size(mesh: Mesh, drawn: Drawing) -> str:
 
 def _part(name: str) -> str:
     return (files("gmds.report") / name).read_text("utf-8")
-
-
-def _library() -> str:
-    try:
-        from plotly.offline import get_plotlyjs
-    except ImportError as error:
-        raise MissingExtra(f"a report needs plotly; install it with: {how_to_install('viz')}") from error
-    return str(get_plotlyjs())
-
-
-@functools.cache
-def _packed_library() -> str:
-    """A third of its size, in less than a second, once."""
-    return packed(_library())

@@ -1,78 +1,66 @@
-// One surface in a panel of its own, drawn by plotly.
+// One surface in a panel of its own: where it is looked at from, what is under a place of the panel.
 "use strict";
 
-const LEVEL = { up: { x: 0, y: 1, z: 0 }, center: { x: 0, y: 0, z: 0 }, eye: { x: 0, y: 0, z: 1.4 } };
-const FILLED = 0.9; // of the panel
-const HIDDEN = 0.03; // of the surface's size: so far behind what is in front of it, a point cannot be seen
-
-// an axis of which nothing is drawn (one that is not `visible` has its texts made all the same)
-const BARE = { title: { text: "" }, tickvals: [], ticks: "", showticklabels: false, showgrid: false, showline: false,
-  zeroline: false, showbackground: false, showspikes: false };
-
-const copied = (thing) => JSON.parse(JSON.stringify(thing));
-
-function column(rows, k, kind) {
-  const values = new kind(rows.length / 3);
-  for (let i = 0; i < values.length; i++) values[i] = rows[3 * i + k];
-  return values;
-}
-
-function cssColours(rgb) {
-  const colours = new Array(rgb.length / 3);
-  for (let i = 0; i < colours.length; i++) colours[i] = `rgb(${rgb[3 * i]},${rgb[3 * i + 1]},${rgb[3 * i + 2]})`;
-  return colours;
-}
+const HIDDEN = 0.012; // of the surface's size: so far behind what is in front of it, a point cannot be seen
 
 class Scene {
   constructor(panel, surface) {
     this.panel = panel;
     this.surface = surface;
     this.plot = panel.querySelector(".plot");
+    this.canvas = panel.querySelector("canvas");
     this.camera = FIRST;
+    this.options = { wireframe: false, squares: 0 };
+    this.positions = surface.vertices;
     this.moved = () => {};
+    this.painter = new Painter(this.canvas, surface.faces);
+    this.painter.restored = () => { this.placeAt(this.positions); this.given.forEach(([name, values]) => this.painter.give(name, values)); };
+    this.given = new Map();
+    this.placeAt(surface.vertices);
   }
 
-  async draw(rgb) {
-    const { vertices, faces } = this.surface;
-    const [x, y, z] = [0, 1, 2].map((k) => column(vertices, k, Float32Array));
-    const [i, j, k] = [0, 1, 2].map((c) => column(faces, c, faces.constructor));
-    const trace = {
-      type: "mesh3d", x, y, z, i, j, k, vertexcolor: cssColours(rgb), hoverinfo: "skip", flatshading: false,
-      lighting: { ambient: 0.66, diffuse: 0.5, specular: 0.06, roughness: 0.85, fresnel: 0.02,
-        vertexnormalsepsilon: 0, facenormalsepsilon: 0 },
-      lightposition: { x: 3000, y: 6000, z: 8000 },
-    };
-    // axes of length one about the origin: what is drawn is where `project` says
-    const axis = { range: [-0.5, 0.5], ...BARE };
-    const layout = {
-      margin: { l: 0, r: 0, t: 0, b: 0 }, paper_bgcolor: "rgba(0,0,0,0)", hovermode: false,
-      scene: { xaxis: axis, yaxis: axis, zaxis: axis, aspectmode: "cube", dragmode: "orbit", camera: copied(this.camera),
-        bgcolor: "rgba(0,0,0,0)" },
-    };
-    await Plotly.newPlot(this.plot, [trace], layout, { responsive: true, displayModeBar: false, doubleClick: false });
-    const follow = (event) => {
-      const camera = event && event["scene.camera"];
-      if (camera && camera.eye) this.look(camera, false);
-    };
-    this.plot.on("plotly_relayouting", follow);
-    this.plot.on("plotly_relayout", follow);
-  }
-
-  // `tell` plotly too, unless the camera comes from there
-  look(camera, tell = true) {
-    if (JSON.stringify(camera) === JSON.stringify(this.camera)) return;
-    this.camera = copied(camera);
+  // moves the vertices, as a morph does
+  placeAt(positions) {
+    this.positions = positions;
+    this.painter.give("position", Float32Array.from(positions));
+    this.painter.give("normal", normals(positions, this.surface.faces));
     this.shown = null;
-    if (tell) Plotly.relayout(this.plot, { "scene.camera": copied(camera) });
-    this.moved(this);
+    this.render();
+  }
+
+  give(name, values) {
+    this.given.set(name, values);
+    this.painter.give(name, values);
+    this.render();
   }
 
   paint(rgb) {
-    return Plotly.restyle(this.plot, { vertexcolor: [cssColours(rgb)] }, [0]);
+    this.painted = rgb;
+    this.give("colour", rgb);
+  }
+
+  look(camera) {
+    if (JSON.stringify(camera) === JSON.stringify(this.camera)) return;
+    this.camera = copied(camera);
+    this.shown = null;
+    this.render();
+    this.moved(this);
+  }
+
+  render() {
+    if (this.waiting) return;
+    this.waiting = requestAnimationFrame(() => this.drawNow());
+  }
+
+  drawNow() {
+    cancelAnimationFrame(this.waiting);
+    this.waiting = 0;
+    if (this.plot.clientWidth) this.painter.draw(this.lens, this.options);
   }
 
   resized() {
     this.shown = null;
+    this.render();
   }
 
   get lens() {
@@ -80,62 +68,75 @@ class Scene {
   }
 
   get projected() {
-    this.shown = this.shown || projectAll(this.lens, this.surface.vertices);
+    this.shown = this.shown || projectAll(this.lens, this.positions);
     return this.shown;
   }
 
-  // the vertex in front at a place of the panel, or -1
+  // what is in front at a place of the panel, with its position; null beside the surface
+  hit(x, y) {
+    const found = front(this.projected, this.surface.faces, x, y);
+    return found && { ...found, position: this.mixed(found.corners, found.weights) };
+  }
+
   vertexAt(x, y) {
-    const hit = front(this.projected, this.surface.faces, x, y);
-    return hit ? hit.vertex : -1;
+    const found = front(this.projected, this.surface.faces, x, y);
+    return found ? found.vertex : -1;
   }
 
   // where a point is in the panel, and whether the surface hides it
   place(p) {
     const [x, y, depth] = project(this.lens, p);
-    const hit = front(this.projected, this.surface.faces, x, y);
-    return { x, y, hidden: Boolean(hit) && hit.depth < depth - HIDDEN };
+    const found = front(this.projected, this.surface.faces, x, y);
+    return { x, y, hidden: Boolean(found) && found.depth < depth - HIDDEN };
   }
 
   vertex(number) {
-    return Array.from(this.surface.vertices.subarray(3 * number, 3 * number + 3));
+    return Array.from(this.positions.subarray(3 * number, 3 * number + 3));
+  }
+
+  mixed(corners, weights) {
+    return [0, 1, 2].map((k) => corners.reduce((sum, corner, i) => sum + weights[i] * this.positions[3 * corner + k], 0));
   }
 }
 
-function rotated(camera, sideways, upwards) {
-  const eye = minus(xyz(camera.eye), xyz(camera.center));
-  const up = unit(xyz(camera.up));
-  const right = unit(cross(up, unit(eye)));
-  const swung = turned(turned(eye, up, sideways), right, upwards);
-  const place = swung.map((c, k) => c + xyz(camera.center)[k]);
-  return { ...camera, eye: named(place), up: named(turned(up, right, upwards)) };
+// Hands on a panel: drag turns, shift or the right button moves, the wheel and two fingers zoom. One finger turns
+// sideways and scrolls the page up and down, as the style of the panel says.
+function handle(scene, clicked) {
+  const { plot } = scene;
+  const fingers = new Map();
+  let pressed = null;
+  plot.addEventListener("pointerdown", (event) => {
+    fingers.set(event.pointerId, [event.clientX, event.clientY]);
+    pressed = { x: event.clientX, y: event.clientY, far: false };
+    plot.setPointerCapture(event.pointerId);
+  });
+  plot.addEventListener("pointermove", (event) => {
+    const last = fingers.get(event.pointerId);
+    if (!last) return;
+    const [dx, dy] = [event.clientX - last[0], event.clientY - last[1]];
+    const before = spread(fingers);
+    fingers.set(event.pointerId, [event.clientX, event.clientY]);
+    if (Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) >= 4) pressed.far = true;
+    if (!pressed.far) return;
+    if (fingers.size > 1) scene.look(panned(zoomed(scene.camera, before / (spread(fingers) || before)), dx / 2, dy / 2, plot.clientHeight));
+    else if (event.shiftKey || event.buttons & 2) scene.look(panned(scene.camera, dx, dy, plot.clientHeight));
+    else scene.look(rotated(scene.camera, (-dx * Math.PI) / plot.clientHeight, (-dy * Math.PI) / plot.clientHeight));
+  });
+  const released = (event) => {
+    fingers.delete(event.pointerId);
+    if (event.type === "pointerup" && pressed && !pressed.far && event.button === 0) clicked(event);
+    if (!fingers.size) pressed = null;
+  };
+  plot.addEventListener("pointerup", released);
+  plot.addEventListener("pointercancel", released);
+  plot.addEventListener("contextmenu", (event) => event.preventDefault());
+  plot.addEventListener("wheel", (event) => {
+    event.preventDefault();
+    scene.look(zoomed(scene.camera, Math.exp(Math.min(Math.max(event.deltaY, -200), 200) / 600)));
+  }, { passive: false });
 }
 
-const FIRST = rotated(LEVEL, 0.4, -0.2);
-
-function zoomed(camera, factor) {
-  const center = xyz(camera.center);
-  return { ...camera, eye: named(minus(xyz(camera.eye), center).map((c, k) => c * factor + center[k])) };
-}
-
-// from as near as lets everything that is drawn of the surfaces be seen
-function fitted(scenes, camera) {
-  let near = camera;
-  for (let i = 0; i < 4; i++) {
-    const reach = scenes.map((scene) => {
-      const view = lens(near, scene.plot.clientWidth, scene.plot.clientHeight);
-      const shown = projectAll(view, scene.surface.vertices);
-      let most = 0;
-      for (let k = 0; k < shown.length; k += 3) {
-        most = Math.max(most, Math.abs(2 * shown[k] / view.width - 1), Math.abs(2 * shown[k + 1] / view.height - 1));
-      }
-      return most;
-    });
-    near = zoomed(near, Math.max(...reach) / FILLED);
-  }
-  return near;
-}
-
-function rolled(camera, angle) {
-  return { ...camera, up: named(turned(xyz(camera.up), unit(minus(xyz(camera.eye), xyz(camera.center))), angle)) };
+function spread(fingers) {
+  const [a, b] = [...fingers.values()];
+  return b ? Math.hypot(a[0] - b[0], a[1] - b[1]) : 0;
 }

@@ -9,14 +9,18 @@ from typing import Any
 
 from gmds.maps.npz_format import fingerprint
 from gmds.maps.point_map import PointMap
+from gmds.maps.words import WORDS
 
 Rows = list[tuple[str, str]]
 
 GENERAL = (
-    "Drag to turn, scroll or pinch to zoom. With the keyboard: Tab to a surface, then arrow keys, plus and minus.",
-    "Point at a surface, and the partner lights up on the other. A dashed ring is a partner on the far side. A click "
-    "keeps a pair marked while you turn; Escape lets it go.",
-    "Grey has no counterpart, or no value.",
+    "Drag to turn, scroll or pinch to zoom, Shift and drag to move. With the keyboard: Tab to a surface, then arrow "
+    "keys, plus and minus.",
+    "Point at a surface, and the partner lights up on the other. A dashed ring is a partner on the far side. Every "
+    "click keeps one more pair marked while you turn; Escape lets all of them go.",
+    "Grey has no counterpart, or no value. Scales are the same on every page, so that two pages can be compared, "
+    'unless "fit scale" is ticked: they then end where 98 % of the values of this map do.',
+    "The length at the lower right of a surface is in the units of its file, and holds in the middle of the view.",
 )
 
 
@@ -29,6 +33,17 @@ def advice(next_step: str) -> str:
     """What to do next, and how the page is used."""
     first, *rest = (html.escape(sentence) for sentence in (next_step, *GENERAL))
     return f'<ul><li id="next">{first}</li>{"".join(f"<li>{sentence}</li>" for sentence in rest)}</ul>'
+
+
+def about(word: str) -> str:
+    """A question mark that says what a word means."""
+    meaning = html.escape(WORDS[word])
+    return f'<abbr class="about" title="{meaning}" aria-label="{meaning}" tabindex="0">?</abbr>'
+
+
+def words() -> str:
+    """The words of the page and what they mean, as items of a list of definitions."""
+    return "".join(f"<dt>{word}</dt><dd>{html.escape(meaning)}</dd>" for word, meaning in WORDS.items())
 
 
 def made(answer: PointMap) -> str:

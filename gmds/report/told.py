@@ -14,11 +14,11 @@ from gmds.maps.point_map import Candidate, MatchStatus, PointMap
 from gmds.report.tables import Rows
 
 VERDICTS = {
-    MatchStatus.GOOD: ("good", "Trustworthy"),
-    MatchStatus.INCOMPLETE: ("fair", "Bodies left out"),
-    MatchStatus.AMBIGUOUS: ("fair", "Two answers"),
-    MatchStatus.UNRATED: ("plain", "Not rated"),
-    MatchStatus.POOR: ("poor", "Doubtful"),
+    MatchStatus.GOOD: ("good", "GOOD"),
+    MatchStatus.INCOMPLETE: ("fair", "INCOMPLETE"),
+    MatchStatus.AMBIGUOUS: ("fair", "AMBIGUOUS"),
+    MatchStatus.UNRATED: ("plain", "UNRATED"),
+    MatchStatus.POOR: ("poor", "POOR"),
 }
 NEXT = {
     MatchStatus.GOOD: "Check a few places that you know (tips of limbs, eyes, joints): point at them and see where "

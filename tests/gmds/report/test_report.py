@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from generated_shapes import rectangle, tetrahedron
-from pages import HOSTILE, elements, page_data, unpacked
+from pages import HOSTILE, elements, page_data
 
 from geodesics import Mesh, SurfacePoints
 from geodesics.repair.decimation import clustered
@@ -81,7 +81,8 @@ def test_corresponding_points_have_the_same_colour(answer: Correspondence, tmp_p
 def test_values_are_shown_on_both_surfaces(answer: Correspondence, tmp_path: Path) -> None:
     errors = np.stack([np.linspace(0, 0.1, 500), np.full(500, 0.3)])
     write_report(tmp_path / "r.html", answer, errors=errors)
-    first, second = page_data(tmp_path / "r.html")["maps"]
+    data = page_data(tmp_path / "r.html")
+    first, second = data["maps"]
     source, target = first["values"]["distortion"]
     assert np.allclose(source[answer.valid], answer.distortion[answer.valid]) and np.isnan(source[~answer.valid]).all()
     back = answer.inverse()
@@ -91,7 +92,11 @@ def test_values_are_shown_on_both_surfaces(answer: Correspondence, tmp_path: Pat
     assert np.allclose(target, expected, equal_nan=True)
     assert np.allclose(first["values"]["error"][0], errors[0], atol=1e-6) and "distortion" not in second["values"]
     assert np.allclose(second["values"]["error"][0], 0.3)
-    assert sum(first["histograms"]["error"]) == 500 and sum(first["histograms"]["distortion"]) == answer.valid.sum()
+    for fixed_or_fitted in (0, 1):
+        assert sum(first["histograms"]["error"][fixed_or_fitted]) == 500
+        assert sum(first["histograms"]["distortion"][fixed_or_fitted]) == answer.valid.sum()
+    assert {mode["key"]: mode["high"] for mode in data["modes"] if "high" in mode} == {"distortion": 0.5, "error": 0.25}
+    assert first["tops"]["error"] == pytest.approx(np.quantile(errors[0], 0.98))
     assert first["curve"][0] == pytest.approx(1 / 500) and first["curve"][20] == 1 and second["curve"][-1] == 0
 
 
@@ -103,7 +108,10 @@ def test_a_truth_that_is_known_at_few_points_colours_what_is_nearest(answer: Cor
     v = answer.source.vertices
     nearer = np.linalg.norm(v - v[3], axis=1) < np.linalg.norm(v - v[400], axis=1)
     assert np.allclose(data["maps"][0]["values"]["error"][0], np.where(nearer, 0.1, 0.2))
-    assert "known at 2 points" in data["modes"][-1]["help"] and sum(data["maps"][0]["histograms"]["error"]) == 2
+    assert "known at 2 points" in data["modes"][-1]["help"] and sum(data["maps"][0]["histograms"]["error"][0]) == 2
+    dots = data["maps"][0]["dots"]
+    assert np.allclose(dots["error"], [0.1, 0.2])
+    assert np.allclose(dots["position"].reshape(-1, 3), data["surfaces"][0]["vertices"].reshape(-1, 3)[[3, 400]])
     assert "<b>15.00</b>" in (tmp_path / "r.html").read_text(encoding="utf-8")
 
 
@@ -136,7 +144,7 @@ def test_the_policy_lets_only_the_pages_own_scripts_run(answer: Correspondence, 
     write_report(tmp_path / "r.html", answer)
     page = elements(tmp_path / "r.html")
     allowed = re.findall(r"'sha256-([^']+)'", page.policy)
-    own = [unpacked(tmp_path / "r.html", "library"), *(text for attrs, text in page.scripts if "type" not in attrs)]
+    own = [text for attrs, text in page.scripts if "type" not in attrs]
     assert allowed == [base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() for text in own]
     assert "default-src 'none'" in page.policy and "unsafe-eval" not in page.policy
     assert "unsafe-inline" not in page.policy.split("script-src")[1]

@@ -58,10 +58,10 @@ def page(visit: Visit) -> Any:
 
 
 def camera_of(page: Any, side: int) -> dict[str, Any]:
-    """What plotly says of the camera of a panel, and how large the panel is."""
+    """The camera of a panel, and how large the panel is."""
     return page.evaluate(
-        "(side) => { const plot = document.querySelectorAll('.plot')[side]; const box = plot.getBoundingClientRect();"
-        "return {...plot.layout.scene.camera, box: [box.left, box.top, box.width, box.height]}; }",
+        "(side) => { const {plot, camera} = gmdsPage.scenes[side]; const box = plot.getBoundingClientRect();"
+        "return {...camera, box: [box.left, box.top, box.width, box.height]}; }",
         side,
     )
 
@@ -177,16 +177,15 @@ def test_what_is_drawn_is_where_the_page_believes_it_is(answer: Correspondence, 
 
 def test_switching_map_and_colours(answer: Correspondence, page: Any, file: Path) -> None:
     data = page_data(file)
-    painted = "() => document.querySelectorAll('.plot')[0].data[0].vertexcolor.slice()"
+    painted = "() => Array.from(gmdsPage.scenes[0].painted)"
 
-    def expected(rgb: np.ndarray) -> list[str]:
-        return [f"rgb({r},{g},{b})" for r, g, b in rgb.reshape(-1, 3).tolist()]
+    def expected(rgb: np.ndarray) -> list[int]:
+        return rgb.reshape(-1).tolist()
 
     assert page.evaluate(painted) == expected(data["maps"][0]["colours"])
     first = page.locator("#cards").inner_text()
     assert "of the source has a counterpart" in first and "median distortion" in first
     page.select_option("#map", index=1)
-    page.wait_for_function(f"({painted})()[5] === '{expected(data['maps'][1]['colours'])[5]}'")
     assert page.evaluate(painted) == expected(data["maps"][1]["colours"])
     assert page.locator("input[value=distortion]").is_disabled()
     badge, facts = page.locator("#badge"), page.locator("#facts").inner_text()
@@ -202,32 +201,42 @@ def test_switching_map_and_colours(answer: Correspondence, page: Any, file: Path
     page.click("#go button")
     assert int(read_out(page)["face"]) == other.face[77]
     page.select_option("#map", index=0)
-    page.wait_for_function(f"({painted})()[5] === '{expected(data['maps'][0]['colours'])[5]}'")
     assert int(read_out(page)["face"]) == answer.points.face[77], "a marked pair follows the map"
-    assert badge.inner_text() == "Not rated" and "mean error" in page.locator("#facts").inner_text()
+    assert badge.inner_text() == "UNRATED" and "mean error" in page.locator("#facts").inner_text()
     assert page.locator("#cards").inner_text() == first
     for mode in ("distortion", "valid", "error"):
         before = page.evaluate(painted)
         page.check(f"input[value={mode}]", force=True)
-        page.wait_for_function(f"(old) => JSON.stringify(({painted})()) !== old", arg=str(before))
+        assert page.evaluate(painted) != before
         assert page.locator("#legend-ramp").is_visible() == (mode != "valid")
         assert page.locator("#histogram").is_visible() == (mode != "valid")
     assert page.locator("#curve").is_visible()
     ramp = data["ramp"].reshape(-1, 3)
-    top = next(mode["high"] for mode in data["modes"] if mode["key"] == "error")
-    steps = np.rint(np.clip(data["maps"][0]["values"]["error"][0] / top, 0, 1) * (len(ramp) - 1)).astype(int)
+    shares = np.clip(data["maps"][0]["values"]["error"][0] / 0.25, 0, 1)  # the fixed scale
+    steps = np.rint(shares * (len(ramp) - 1)).astype(int)
     assert np.mean(np.array(page.evaluate(painted)) == np.array(expected(ramp[steps]))) > 0.99  # rounding aside
+    page.check("#fit")
+    assert (
+        np.array_equal(page.evaluate(painted)[-3:], ramp[-1]) and page.locator("#high").inner_text() == "0.196 and more"
+    )
+    page.uncheck("#fit")
+    assert page.locator("#high").inner_text() == "0.25"
 
 
-def test_a_click_keeps_a_pair_and_escape_lets_it_go(page: Any) -> None:
+def test_every_click_keeps_a_pair_and_escape_lets_all_go(page: Any) -> None:
     left, top, width, height = camera_of(page, 0)["box"]
-    page.mouse.click(left + 0.45 * width, top + 0.5 * height)
-    kept = read_out(page)
-    assert "vertex" in kept
-    page.mouse.move(left + 0.55 * width, top + 0.5 * height)
-    assert read_out(page) == kept
+    pins = "() => gmdsPage.pins.map(({side, vertex}) => [side, vertex])"
+    for x in (0.45, 0.5):
+        page.mouse.click(left + x * width, top + 0.5 * height)
+        assert [0, int(read_out(page)["vertex"])] in page.evaluate(pins)
+    page.mouse.move(left + 2, top + 2)
+    assert page.locator("#pin-table tr").count() == 2 and page.locator("#pins .pin").count() == 4
+    with page.expect_download() as offered:
+        page.click("#save-pins")
+    lines = Path(offered.value.path()).read_text(encoding="utf-8").splitlines()
+    assert len(lines) == 3 and lines[0].startswith("pair,given_on,source_vertex,target_face")
     page.keyboard.press("Escape")
-    assert read_out(page) == {}
+    assert read_out(page) == {} and page.evaluate(pins) == []
 
 
 def test_keys_turn_both_surfaces_and_a_box_lets_go_of_the_other(page: Any) -> None:
@@ -250,9 +259,12 @@ def test_dragging_turns_both_surfaces(page: Any) -> None:
     page.mouse.down()
     page.mouse.move(left + width / 2 + 40, top + height / 2, steps=3)
     page.mouse.up()
-    page.wait_for_timeout(300)
     assert camera_of(page, 1)["eye"] == pytest.approx(camera_of(page, 0)["eye"])
     assert camera_of(page, 1)["eye"] != before["eye"]
+    turned = camera_of(page, 1)["eye"]
+    page.mouse.wheel(0, -120)
+    page.wait_for_function("(eye) => JSON.stringify(gmdsPage.scenes[1].camera.eye) !== JSON.stringify(eye)", arg=turned)
+    assert camera_of(page, 1)["eye"] == camera_of(page, 0)["eye"], "the wheel zooms both"
 
 
 def test_the_largest_value_is_found_and_turned_to(answer: Correspondence, page: Any) -> None:
@@ -306,9 +318,48 @@ def test_figures_and_curve_are_those_of_the_candidate_shown(
     errors = np.stack([np.linspace(0, 0.1, 1500), np.linspace(0.1, 0.9, 1500)])
     write_report(tmp_path / "both.html", answer, errors=errors)
     page = Visit(running, tmp_path / "both.html").page
-    widths = "() => document.querySelector('#curve').data.map((line) => line.line.width)"
-    assert "5.00\nmean error x100" in page.locator("#cards").inner_text() and page.evaluate(widths) == [3, 1.5]
+    widths = "() => [...document.querySelectorAll('#curve polyline')].map((line) => 1 + 2 * line.matches('.chosen'))"
+    assert "5.00\nmean error x100" in page.locator("#cards").inner_text() and page.evaluate(widths) == [3, 1]
     page.select_option("#map", index=1)
-    page.wait_for_function(f"({widths})()[1] === 3")
+    assert page.evaluate(widths) == [1, 3]
     assert "50.00\nmean error x100" in page.locator("#cards").inner_text()
     assert "50.00" in page.locator("#facts").inner_text() and page.locator("#badge").inner_text() == "Candidate"
+
+
+def test_a_link_brings_back_what_was_shown(running: Any, file: Path) -> None:
+    page = Visit(running, file).page
+    page.select_option("#map", index=1)
+    page.select_option("#beside", value="0")
+    page.fill("#go-vertex", "12")
+    page.click("#go button")
+    page.click("[data-side=top]")
+    shown = page.evaluate("stateOf(gmdsPage)")
+    page.goto(f"{file.as_uri()}#{shown}")
+    page.reload()
+    page.wait_for_selector("body[data-ready]")
+    assert page.evaluate("stateOf(gmdsPage)") == shown and "map=1" in shown and "0.12" in shown
+    assert page.locator("#panel-2").is_visible()
+    page.goto(f"{file.as_uri()}#map=nonsense&pins=7.9,0.99999999&look=1,2;&beside=77&morph=x")
+    page.reload()
+    page.wait_for_selector("body[data-ready=yes]")
+    assert page.evaluate("gmdsPage.pins.length") == 0
+
+
+def test_the_readout_is_in_view_on_a_laptop_while_pointing(running: Any, file: Path) -> None:
+    page = Visit(running, file, width=1366, height=650).page  # what a browser leaves of 768
+    for mode in ("match", "distortion", "error"):
+        page.check(f"input[value={mode}]", force=True)
+        box = page.locator("#readout").bounding_box()
+        assert box["y"] + box["height"] <= 650
+        before = page.locator("#stage").bounding_box()
+        left, top, width, height = camera_of(page, 0)["box"]
+        page.mouse.move(left + 0.45 * width, top + 0.5 * height)
+        assert page.locator("#stage").bounding_box() == before, "nothing jumps"
+
+
+def test_the_source_becomes_the_target(answer: Correspondence, running: Any, file: Path) -> None:
+    page = Visit(running, file).page
+    page.evaluate("() => { at('morph').value = 1; at('morph').dispatchEvent(new Event('input')); }")
+    shown = np.array(page.evaluate("Array.from(gmdsPage.scenes[0].positions)")).reshape(-1, 3)
+    goal = page_data(file)["maps"][0]["there"]["position"].reshape(-1, 3) / 65535 - 0.5
+    assert np.allclose(shown, goal, atol=1e-5)

@@ -1,0 +1,50 @@
+"""The ways of colouring: what they are called, what they mean, and where their scales end."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from geodesics.arrays import Floats
+from gmds.maps.words import WORDS
+from gmds.report.packing import levels
+
+TOPS = {"confidence": 1.0, "distortion": 0.5, "error": 0.25}  # where fixed scales end: conventions, 1 is certainty
+UNMATCHED_COLOUR = (0.93, 0.60, 0.20)  # sRGB, orange: without a counterpart
+MATCHED_COLOUR = (0.28, 0.47, 0.72)  # sRGB, blue: with one
+MATCH = (
+    "A point and its partner on the other surface have the same colour. Look for a part that has the colour of "
+    "another part, a left leg that of a right leg, say: there the map is wrong."
+)
+VALID = "Which points of either surface have a partner. Those without are on a part that the other surface lacks."
+LOOK = {
+    "confidence": " Yellow is where to look first.",
+    "distortion": " Yellow changes most.",
+    "error": " Dark blue is right, yellow is wrong.",
+}
+SPARSE = " The truth is known at {} points, drawn as dots; all others have the colour of the nearest of them."
+AXES = {
+    "confidence": "confidence: probability of being within 0.05 √area",
+    "distortion": "distortion: relative change of lengths",
+    "error": "error: distance from the true point / √area",
+}
+UNITS = {"confidence": "confidence", "distortion": "distortion", "error": "error / √area"}
+
+
+def modes(known: Sequence[str], errors: Floats | None = None) -> list[dict[str, Any]]:
+    """The ways of colouring: what they are called, what they mean, and where their scale ends."""
+    swatches = levels(np.array([UNMATCHED_COLOUR, MATCHED_COLOUR])).tolist()
+    found: list[dict[str, Any]] = [{"key": "match", "label": "Matching colours", "help": MATCH}]
+    for key in known:
+        few = errors is not None and key == "error" and 2 * int(np.isfinite(errors[0]).sum()) < errors.shape[1]
+        sparse = SPARSE.format(f"{int(np.isfinite(errors[0]).sum()):,}") if few and errors is not None else ""
+        about = {"key": key, "label": key.capitalize(), "help": WORDS[key] + LOOK[key] + sparse, "axis": AXES[key]}
+        counted = "points" if sparse else "vertices"
+        found.append(
+            {**about, "unit": UNITS[key], "counted": counted, "high": TOPS[key], "reversed": key == "confidence"}
+        )
+    judged = sum(key in known for key in ("confidence", "distortion"))
+    found.insert(1 + judged, {"key": "valid", "label": "Counterparts", "help": VALID, "swatches": swatches})
+    return found

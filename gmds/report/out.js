@@ -1,0 +1,70 @@
+// What leaves the page: pairs as a table, the view as a picture, and all that is chosen as a link.
+"use strict";
+
+function offer(blob, name) {
+  const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: name });
+  document.body.append(link);
+  link.click();
+  link.remove();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+function pinsTable(page) {
+  const keys = page.data.modes.filter((mode) => mode.high && page.map.values[mode.key]);
+  const head = ["pair", "given_on", "source_vertex", "target_face", "target_w0", "target_w1", "target_w2", "target_vertex", ...keys.map((mode) => mode.key)];
+  const rows = page.pins.map(({ side, vertex }, i) => {
+    const partner = page.partner(side, vertex);
+    const number = page.surfaces[side].origin[vertex];
+    const values = keys.map((mode) => page.map.values[mode.key][side][vertex]);
+    const weights = partner ? partner.weights.map((w) => w.toFixed(5)) : ["", "", ""];
+    const there = side === 0 ? [number, partner ? partner.face : "", ...weights, partner ? partner.vertex : ""]
+      : [partner ? partner.vertex : "", "", "", "", "", number];
+    return [i + 1, side === 0 ? "source" : "target", ...there, ...values.map((v) => (Number.isFinite(v) ? v : ""))];
+  });
+  return [head, ...rows].map((row) => row.join(",")).join("\n") + "\n";
+}
+
+// both surfaces side by side, as they are shown
+async function viewPicture(page) {
+  page.scenes.forEach((scene) => scene.drawNow());
+  const shown = page.scenes.map((scene) => scene.canvas);
+  const picture = Object.assign(document.createElement("canvas"), {
+    width: shown.reduce((sum, one) => sum + one.width, 0), height: Math.max(...shown.map((one) => one.height)) });
+  const pen = picture.getContext("2d");
+  pen.fillStyle = getComputedStyle(document.querySelector(".panel")).backgroundColor;
+  pen.fillRect(0, 0, picture.width, picture.height);
+  let left = 0;
+  for (const one of shown) { pen.drawImage(one, left, 0); left += one.width; }
+  return new Promise((done) => picture.toBlob(done, "image/png"));
+}
+
+const CHECKS = ["together", "squares", "wireframe", "fit"];
+
+function stateOf(page) {
+  const flat = (camera) => ["eye", "up", "center"].flatMap((name) => xyz(camera[name])).map((c) => Number(c.toFixed(4))).join(",");
+  const state = new URLSearchParams({
+    map: at("map").selectedIndex, mode: page.mode.key, beside: at("beside").value, morph: at("morph").value,
+    on: CHECKS.filter((id) => at(id).checked).join(","), pins: page.pins.map(({ side, vertex }) => `${side}.${vertex}`).join(","),
+    look: page.scenes.slice(0, 2).map((scene) => flat(scene.camera)).join(";"),
+  });
+  return state.toString();
+}
+
+function restore(page, text) {
+  const state = new URLSearchParams(text);
+  const number = (value, low, high) => (Number.isFinite(Number(value)) ? Math.min(Math.max(Number(value), low), high) : low);
+  at("map").selectedIndex = number(state.get("map"), 0, page.data.maps.length - 1);
+  const mode = [...document.querySelectorAll("input[name=mode]")].find((input) => input.value === state.get("mode"));
+  if (mode) mode.checked = true;
+  at("morph").value = number(state.get("morph"), 0, 1);
+  if (page.data.maps[state.get("beside")] && state.get("beside") !== "") at("beside").value = state.get("beside");
+  CHECKS.forEach((id) => { at(id).checked = (state.get("on") || "").split(",").includes(id); });
+  page.pins = (state.get("pins") || "").split(",").map((pin) => pin.split(".").map(Number))
+    .filter(([side, vertex]) => page.data.surfaces[side] && vertex >= 0 && vertex < page.data.surfaces[side].origin.length)
+    .map(([side, vertex]) => ({ side, vertex }));
+  (state.get("look") || "").split(";").forEach((one, side) => {
+    const c = one.split(",").map(Number);
+    if (c.length !== 9 || !c.every(Number.isFinite) || !page.scenes[side]) return;
+    page.scenes[side].look({ eye: named(c.slice(0, 3)), up: named(c.slice(3, 6)), center: named(c.slice(6)) });
+  });
+}
