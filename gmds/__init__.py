@@ -28,6 +28,9 @@ if TYPE_CHECKING:
     from gmds.evaluation import geodesic_error as geodesic_error
     from gmds.evaluation import summary as summary
     from gmds.landmarks.soft import SoftLandmarks as SoftLandmarks
+    from gmds.maps.growth import Growth as Growth
+    from gmds.maps.growth import growth_between as growth_between
+    from gmds.maps.growth import growth_of as growth_of
     from gmds.maps.point_map import Candidate as Candidate
     from gmds.maps.point_map import MatchStatus as MatchStatus
     from gmds.matching.pipeline import match as match
@@ -68,6 +71,11 @@ _NAMES = {
         "summary",
     ),
     "landmarks.soft": ("SoftLandmarks",),
+    "maps.growth": (
+        "Growth",
+        "growth_between",
+        "growth_of",
+    ),
     "maps.point_map": (
         "Candidate",
         "MatchStatus",

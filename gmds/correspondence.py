@@ -17,6 +17,7 @@ from geodesics.points import SurfacePoints
 from gmds.errors import MapArray, MapError
 from gmds.maps.confidence import confidence_at, known_confidence, not_rated
 from gmds.maps.doubt import DoubtfulRegion, doubtful_regions
+from gmds.maps.growth import growth_of
 from gmds.maps.images import composed, inverted
 from gmds.maps.npz_format import read_map, write_map
 from gmds.maps.overlap import covered, overlap
@@ -42,10 +43,8 @@ class Correspondence:
         False where the vertex has no counterpart; the point of such a row is finite and means nothing.
     distortion : float64 array of shape (n,)
         By what share lengths around the vertex change, from 0 for none: `gmds.maps.distortion` defines it.
-    status : MatchStatus
-        How far the whole can be trusted.
-    candidates : tuple of Candidate
-        Other maps, best first.
+    status, candidates : MatchStatus, tuple of Candidate
+        How far the whole can be trusted, and other maps, best first.
     meta : mapping
         Parameters, seed, notes (`gmds.matching.notes`), versions, timings, as JSON.
     confidence : float64 array of shape (n,)
@@ -59,8 +58,7 @@ class Correspondence:
 
     See Also
     --------
-    match : Makes one.
-    geodesic_error : Judges one.
+    match, geodesic_error : Make one, judge one.
     """
 
     source: Mesh
@@ -86,12 +84,10 @@ class Correspondence:
 
         Parameters
         ----------
-        source : Mesh
-            Of n vertices.
-        points : SurfacePoints
-            n points of the target.
+        source : Mesh, of n vertices
+        points : SurfacePoints, n of them, on the target
         **others
-            Any other attribute. `valid` is True except at vertices on no face, `distortion` is zero, unless given.
+            Any other attribute; unless given `distortion` is zero, and `valid` but what is on no face.
         """
         others.setdefault("valid", np.bincount(source.faces.ravel(), minlength=source.n_vertices) > 0)
         others.setdefault("distortion", np.zeros(source.n_vertices))
@@ -132,6 +128,11 @@ class Correspondence:
     def doubtful(self) -> list[DoubtfulRegion]:
         """Regions of the source where the map is probably wrong, the largest first (see `gmds.maps.doubt`)."""
         return doubtful_regions(self.source, self.confidence, self.valid)
+
+    @cached_property
+    def growth(self) -> Floats:
+        """The log of the change of length around each vertex (n,), NaN where unknown (see `gmds.maps.growth`)."""
+        return growth_of(self).length
 
     def vertex_map(self) -> Integers:
         """The target vertex nearest to each point, among the corners of its face: int64 array of shape (n,)."""

@@ -20,14 +20,21 @@ report_option = click.option("--report", type=OutputFile(), help="Write a page t
 picture_option = click.option(
     "--picture", type=EndingIn(*PICTURES), help="Draw both surfaces: .png, .jpg, .svg or .pdf."
 )
+show_option = click.option(
+    "--show",
+    type=click.Choice(["doubt", "growth"]),
+    default="doubt",
+    show_default=True,
+    help="What the third view of the picture shows: doubt, or how much lengths grew, as a logarithm.",
+)
 up_option = click.option(
     "--up", type=click.Choice(list(UP)), help="Axis of the meshes that is shown as up; y for .obj and .glb, else z."
 )
 
 
 def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """The options --report, --picture and --up."""
-    return report_option(picture_option(up_option(command)))
+    """The options --report, --picture, --show and --up."""
+    return report_option(picture_option(show_option(up_option(command))))
 
 
 def write_views(
@@ -39,6 +46,7 @@ def write_views(
     title: str,
     names: tuple[str, str],
     up: str | None = None,
+    show: str = "doubt",
 ) -> None:
     """The page and the picture that were asked for; each written file is named on stderr.
 
@@ -53,5 +61,6 @@ def write_views(
     if picture is not None:
         from gmds.pictures.panels import write_picture
 
-        first = None if errors is None else errors[0]
-        tell_written(picture, write_picture(picture, answer, first, title=title, names=names, up=upwards))
+        first = None if errors is None or show != "doubt" else errors[0]
+        told = write_picture(picture, answer, first, title=title, names=names, up=upwards, show=show)
+        tell_written(picture, told)

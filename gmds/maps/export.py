@@ -12,6 +12,7 @@ import numpy as np
 from geodesics.errors import FormatError
 from geodesics.io import atomic_write
 from gmds.files.table import table_text
+from gmds.maps.growth import growth_of
 from gmds.maps.point_map import PointMap
 
 ENDINGS = (".csv", ".mat")
@@ -28,6 +29,7 @@ COLUMNS = (
     "valid",
     "distortion",
     "confidence",
+    "growth",
 )
 
 
@@ -66,12 +68,13 @@ def export_map(answer: PointMap, path: str | os.PathLike[str]) -> None:
 
     .csv: a header and a row for every source vertex, indices from 0: the source vertex, the nearest target vertex, the
     target face and the barycentric weights of the point on it, its position, whether it is valid (1 or 0), the
-    distortion and the confidence (nan where nobody rated the map). Numbers are written with all their digits.
+    distortion, the confidence (nan where nobody rated the map) and the growth (`gmds.maps.growth`; nan where it is not
+    known). Numbers are written with all their digits.
 
     .mat (MATLAB 5, readable by Octave and scipy): `vertex` (n, 1), `face` (n, 1), `barycentric` (n, 3), `position`
-    (n, 3), `valid` (n, 1) logical, `distortion` (n, 1), `confidence` (n, 1), `status`, and the counts `n_source`,
-    `n_target`. Indices are doubles from 1, as MATLAB has them: `target_vertices(vertex(i), :)` is where source vertex
-    i goes.
+    (n, 3), `valid` (n, 1) logical, `distortion` (n, 1), `confidence` (n, 1), `growth` (n, 1), `status`, and the counts
+    `n_source`, `n_target`. Indices are doubles from 1, as MATLAB has them: `target_vertices(vertex(i), :)` is where
+    source vertex i goes.
 
     Parameters
     ----------
@@ -107,6 +110,7 @@ def _csv(answer: PointMap) -> bytes:
         answer.valid.astype(int).tolist(),
         answer.distortion.tolist(),
         answer.confidence.tolist(),
+        growth_of(answer).length.tolist(),
     )
     return table_text(chain([COLUMNS], zip(*columns, strict=True))).encode("ascii")
 
@@ -123,6 +127,7 @@ def _mat(answer: PointMap) -> bytes:
         "valid": answer.valid,
         "distortion": answer.distortion,
         "confidence": answer.confidence,
+        "growth": growth_of(answer).length,
         "status": answer.status.name,
         "n_source": float(answer.source.n_vertices),
         "n_target": float(answer.target.n_vertices),

@@ -30,7 +30,7 @@ def preimage(answer: PointMap, vertices: ArrayLike) -> tuple[SurfacePoints, Floa
     source, target = answer.source, answer.target
     image, size = answer.points.positions, np.sqrt(target.area)
     queries = target.vertices[np.asarray(vertices, dtype=np.int64)]
-    usable = np.flatnonzero(answer.valid[source.faces].all(axis=1) & ~_torn(source, image, size))
+    usable = np.flatnonzero(answer.valid[source.faces].all(axis=1) & ~torn_faces(source, image, size))
     if len(usable) == 0:
         nowhere = SurfacePoints(
             source, np.zeros(len(queries), dtype=np.int64), np.tile(np.eye(3)[0], (len(queries), 1))
@@ -62,7 +62,7 @@ def image(answer: PointMap, points: SurfacePoints) -> tuple[SurfacePoints, Bools
     same = inside & (corner_face == corner_face[:, :1]).all(axis=1)
     face[same] = corner_face[same, 0]
     barycentric[same] = combination(weights[same], corner_weights[same])
-    torn = _torn(answer.source, answer.points.positions, np.sqrt(answer.target.area))[points.face]
+    torn = torn_faces(answer.source, answer.points.positions, np.sqrt(answer.target.area))[points.face]
     mixed = np.flatnonzero(inside & ~same & ~torn)
     if len(mixed):
         mean = combination(weights[mixed], position[mixed])
@@ -100,7 +100,7 @@ def confidence_between(points: SurfacePoints, confidence: Floats) -> Floats:
     return np.asarray(np.clip(points.interpolate(confidence), 0.0, 1.0), dtype=np.float64)
 
 
-def _torn(source: Mesh, image: Floats, size: float) -> Bools:
+def torn_faces(source: Mesh, image: Floats, size: float) -> Bools:
     """Source faces (m,) with an edge that the map stretches beyond reason; size is sqrt(target area)."""
     before = np.sqrt(intrinsic.squared_lengths(source.vertices, source.faces)) * size / np.sqrt(source.area)
     after = np.sqrt(intrinsic.squared_lengths(image, source.faces))

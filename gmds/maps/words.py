@@ -15,6 +15,10 @@ WORDS = {
         "By what share lengths around a point change, from 0 for none: where one animal has a longer neck than the "
         "other, they have to."
     ),
+    "growth": (
+        "The natural logarithm of how much longer things around a point became from source to target, beside the whole: "
+        "0.69 is twice as long, -0.69 half as long."
+    ),
     "stress": (
         "The mean difference between distances on the source and those between the same points on the target, over the "
         "mean distance: small is good."

@@ -10,6 +10,7 @@ from geodesics import Mesh
 from geodesics.arrays import Floats
 from geodesics.errors import BadArgument
 
+LEAST_REACH = 0.05  # either side of the middle of a range of growth: less is the error of a map (results/growth.md)
 MISSING = (0.62, 0.62, 0.62)  # sRGB, grey for what has no counterpart or no value; set by hand
 
 # "cividis" (Nunez, Anderton, Renslow 2018) at ten even steps
@@ -43,6 +44,12 @@ def shown_range(values: Floats) -> tuple[float, float]:
     """From 0 to what 98 % of the finite values stay below, so that a few outliers do not hide the rest."""
     finite = values[np.isfinite(values)]
     return 0.0, float(np.quantile(finite, 0.98)) if len(finite) else 1.0
+
+
+def symmetric_reach(values: Floats) -> float:
+    """How far 98 % of the finite values are from 0, so that a range may be as wide below as above."""
+    finite = values[np.isfinite(values)]
+    return max(float(np.quantile(np.abs(finite), 0.98)) if len(finite) else 0.0, LEAST_REACH)
 
 
 def per_vertex(values: ArrayLike, count: int) -> Floats:

@@ -11,8 +11,10 @@ from numpy.typing import ArrayLike
 
 from geodesics import Mesh
 from geodesics.arrays import Floats
+from geodesics.errors import BadArgument
 from geodesics.io import atomic_write
 from gmds.errors import PictureFormat, RenderingError
+from gmds.maps.growth import growth_of
 from gmds.maps.overlap import covered_of
 from gmds.maps.point_map import PointMap
 from gmds.pictures.camera import Direction, alignment, broadside
@@ -23,6 +25,7 @@ from gmds.pictures.colours import (
     per_vertex,
     position_colours,
     shown_range,
+    symmetric_reach,
     value_colours,
 )
 from gmds.pictures.figure import FORMATS, Panel, composed, encoded
@@ -32,7 +35,7 @@ from gmds.pictures.software import Shot, software
 Renderer = Callable[[Sequence[Shot]], list[Floats]]
 
 
-def write_picture(
+def write_picture(  # noqa: PLR0913 - as much as there is to choose
     path: str | os.PathLike[str],
     answer: PointMap,
     errors: ArrayLike | None = None,
@@ -42,6 +45,7 @@ def write_picture(
     up: Direction = (0, 0, 1),
     pixels: int = 520,
     renderer: Renderer | None = None,
+    show: str = "doubt",
 ) -> str:
     """A picture of source and target in which corresponding points have the same colour.
 
@@ -54,12 +58,10 @@ def write_picture(
     answer : Correspondence
         The map, of n source vertices.
     errors : array of shape (n,), optional
-        Shown on the source in a third view; where one is not finite, that of the nearest vertex. Without errors the
-        third view shows doubt, 1 less the confidence of the map, or its distortion where nobody rated it.
-    title : str
-        Above it all.
-    names : two str
-        Of source and target.
+        Shown on the source in a third view; where one is not finite, that of the nearest vertex. Without them it shows
+        doubt, 1 less the confidence of the map, or its distortion where nobody rated it.
+    title, names : str, two str
+        Above it all, and of source and target.
     up : three floats
         What is up in the source's coordinates. The target is turned to be seen from the same side.
     pixels : int
@@ -67,6 +69,8 @@ def write_picture(
     renderer : function, optional
         `gmds.pictures.offscreen.offscreen` (pyvista) or `gmds.pictures.software.software`; without one the first of
         them that can draw.
+    show : {"doubt", "growth"}
+        What the third view shows without errors; growth is beside that of the whole (`gmds.maps.growth`).
 
     Returns
     -------
@@ -89,7 +93,7 @@ def write_picture(
     write_values : Values on surfaces.
     gmds.report.write_report : A page in which surfaces can be turned.
     """
-    panels = map_panels(answer, errors, names=names, up=up, pixels=pixels)
+    panels = map_panels(answer, errors, names=names, up=up, pixels=pixels, show=show)
     return _write(path, panels, title, renderer)
 
 
@@ -100,6 +104,7 @@ def map_panels(
     names: tuple[str, str] = ("source", "target"),
     up: Direction = (0, 0, 1),
     pixels: int = 520,
+    show: str = "doubt",
 ) -> list[Panel]:
     """The two or three views of `write_picture`."""
     view = broadside(answer.source, up)
@@ -111,18 +116,24 @@ def map_panels(
         Panel(names[0], Shot(answer.source, pulled, view, pixels)),
         Panel(names[1], Shot(answer.target, colours, view @ alignment(answer), pixels)),
     ]
-    caption, values, limits = _judgement(answer, errors)
+    caption, values, limits = _judgement(answer, errors, show)
     if errors is not None or values.any():
         shown = value_colours(np.where(answer.valid, values, np.nan), *limits)
         panels.append(Panel(caption, Shot(answer.source, shown, view, pixels), limits))
     return panels
 
 
-def _judgement(answer: PointMap, errors: ArrayLike | None) -> tuple[str, Floats, tuple[float, float]]:
-    """What tells how good the map is where, what it is called, and the range that is shown."""
+def _judgement(answer: PointMap, errors: ArrayLike | None, show: str) -> tuple[str, Floats, tuple[float, float]]:
+    """What the third view shows of the map, what it is called, and the range."""
+    if show not in ("doubt", "growth"):
+        raise BadArgument(f"a picture shows doubt or growth, not {show!r}")
     if errors is not None:
         values = nearest_known(answer.source, errors)
         return "error", values, shown_range(values)
+    if show == "growth":
+        values = growth_of(answer).relative
+        reach = symmetric_reach(values)
+        return "growth: log of length", values, (-reach, reach)
     if np.isnan(answer.confidence).all():
         return "distortion", answer.distortion, shown_range(answer.distortion)
     return "doubt", 1 - answer.confidence, (0.0, 1.0)
@@ -142,15 +153,12 @@ def write_values(
 
     Parameters
     ----------
-    path : path
+    path, title, up, pixels, renderer
         As in `write_picture`.
     surfaces : sequence of (str, Mesh, array of shape (n,))
-        Captions, and what is drawn, with a value for each vertex. All share one range of colours; what is not finite
-        is grey.
+        Captions, and what is drawn, with a value for each vertex, all in one range of colours; grey is not finite.
     labels : bool
         Values are whole numbers with a colour each, negative ones grey.
-    title, up, pixels, renderer
-        As in `write_picture`.
 
     Returns
     -------
@@ -174,13 +182,11 @@ def write_values(
 
 
 def _write(path: str | os.PathLike[str], panels: Sequence[Panel], title: str, renderer: Renderer | None) -> str:
-    ending = Path(path).suffix.lower()
-    if ending not in FORMATS:
+    if (ending := Path(path).suffix.lower()) not in FORMATS:
         raise PictureFormat(f"{path}: a picture ends in {', '.join(FORMATS)}, not {ending or 'nothing'}")
     images, why = _drawn([panel.shot for panel in panels], renderer)
-    picture = encoded(composed(panels, images, title), ending)
     with atomic_write(path) as stream:
-        stream.write(picture)
+        stream.write(encoded(composed(panels, images, title), ending))
     return why
 
 

@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 from geodesics import Mesh, SurfacePoints
 from geodesics.arrays import Bools, Floats, Integers
 from gmds.evaluation import error_curve
+from gmds.maps.growth import growth_of
 from gmds.maps.images import preimage
 from gmds.maps.overlap import reach
 from gmds.maps.point_map import Candidate, MatchStatus, PointMap
-from gmds.pictures.colours import MISSING, nearest_known, position_colours, shown_range, value_colours
+from gmds.pictures.colours import MISSING, nearest_known, position_colours, shown_range, symmetric_reach, value_colours
 from gmds.report.drawing import Drawing
 from gmds.report.landmarks import Both, NamedPair, landmarks_of, places
-from gmds.report.modes import TOPS, modes
+from gmds.report.modes import SIGNED, TOPS, modes
 from gmds.report.packing import levels, small
 from gmds.report.told import told
 
@@ -110,6 +111,9 @@ def _fields(one: PointMap, errors: Floats | None) -> dict[str, Floats]:
         fields["confidence"] = np.where(one.valid, one.confidence, np.nan)
     if np.ptp(one.distortion) > 0:
         fields["distortion"] = np.where(one.valid, one.distortion, np.nan)
+    growth = growth_of(one).relative
+    if np.isfinite(growth).any():
+        fields["growth"] = growth
     if errors is not None and np.isfinite(errors).any():
         fields["error"] = np.where(np.isfinite(errors), errors, np.nan)
     return fields
@@ -142,7 +146,9 @@ def _map(one: PointMap, drawn: Both, target_colours: Floats, fields: Mapping[str
         "values": values,
         "tops": tops,
         "largest": {key: float(np.nanmax(fields[key], initial=0.0)) for key in fields},
-        "histograms": {key: [_histogram(fields[key], top) for top in (TOPS[key], tops[key])] for key in fields},
+        "histograms": {
+            key: [_histogram(fields[key], top) for top in (TOPS[key], tops[key])] for key in tops if key not in SIGNED
+        },
         "curve": _curve(fields["error"]) if "error" in fields else None,
         "dots": _dots(one.source, fields.get("error"), ours),
     }
@@ -153,6 +159,8 @@ def _fitted(key: str, values: Floats) -> float:
     known = values[np.isfinite(values)]
     if key == "confidence" or not len(known):
         return TOPS[key]
+    if key in SIGNED:
+        return symmetric_reach(known)
     return shown_range(known)[1] or float(known.max()) or TOPS[key]
 
 

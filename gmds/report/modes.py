@@ -11,7 +11,9 @@ from geodesics.arrays import Floats
 from gmds.maps.words import WORDS
 from gmds.report.packing import levels
 
-TOPS = {"confidence": 1.0, "distortion": 0.5, "error": 0.25}  # where fixed scales end: conventions, 1 is certainty
+# where fixed scales end: conventions, 1 is certainty, 0.69 twice as long
+TOPS = {"confidence": 1.0, "distortion": 0.5, "growth": 0.69, "error": 0.25}
+SIGNED = ("growth",)  # scales that begin as far below 0 as they end above
 UNMATCHED_COLOUR = (0.93, 0.60, 0.20)  # sRGB, orange: without a counterpart
 MATCHED_COLOUR = (0.28, 0.47, 0.72)  # sRGB, blue: with one
 MATCH = (
@@ -22,15 +24,17 @@ VALID = "Which points of either surface have a partner. Those without are on a p
 LOOK = {
     "confidence": " Yellow is where to look first.",
     "distortion": " Yellow changes most.",
+    "growth": " Yellow became longer than the whole did, blue shorter.",
     "error": " Dark blue is right, yellow is wrong.",
 }
 SPARSE = " The truth is known at {} points, drawn as dots; all others have the colour of the nearest of them."
 AXES = {
     "confidence": "confidence: probability of being within 0.05 √area",
     "distortion": "distortion: relative change of lengths",
+    "growth": "growth: log of the change of length, beside that of the whole",
     "error": "error: distance from the true point / √area",
 }
-UNITS = {"confidence": "confidence", "distortion": "distortion", "error": "error / √area"}
+UNITS = {"confidence": "confidence", "distortion": "distortion", "growth": "log growth", "error": "error / √area"}
 
 
 def modes(known: Sequence[str], errors: Floats | None = None) -> list[dict[str, Any]]:
@@ -43,7 +47,14 @@ def modes(known: Sequence[str], errors: Floats | None = None) -> list[dict[str, 
         about = {"key": key, "label": key.capitalize(), "help": WORDS[key] + LOOK[key] + sparse, "axis": AXES[key]}
         counted = "points" if sparse else "vertices"
         found.append(
-            {**about, "unit": UNITS[key], "counted": counted, "high": TOPS[key], "reversed": key == "confidence"}
+            {
+                **about,
+                "unit": UNITS[key],
+                "counted": counted,
+                "high": TOPS[key],
+                "reversed": key == "confidence",
+                "signed": key in SIGNED,
+            }
         )
     judged = sum(key in known for key in ("confidence", "distortion"))
     found.insert(1 + judged, {"key": "valid", "label": "Counterparts", "help": VALID, "swatches": swatches})

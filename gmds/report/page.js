@@ -42,7 +42,8 @@ class Page {
   ramp(value, mode) {
     const { ramp, missing } = this.data;
     if (!Number.isFinite(value)) return missing;
-    const share = Math.min(Math.max(value / this.top(mode), 0), 1);
+    const part = value / this.top(mode);
+    const share = Math.min(Math.max(mode.signed ? (1 + part) / 2 : part, 0), 1);
     const step = 3 * Math.round((mode.reversed ? 1 - share : share) * (ramp.length / 3 - 1));
     return ramp.subarray(step, step + 3);
   }
@@ -120,7 +121,7 @@ class Page {
     if (!mode.high) return;
     const top = this.top(mode);
     at("legend-label").textContent = mode.unit;
-    at("low").textContent = "0";
+    at("low").textContent = mode.signed ? figureShort(-top) : "0";
     at("high").textContent = `${figureShort(top)}${map.largest[mode.key] > top * 1.0001 ? " and more" : ""}`;
     at("ramp").classList.toggle("reversed", Boolean(mode.reversed));
   }

@@ -28,9 +28,10 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
 
     \b
     .csv  a row for every source vertex, indices from 0: source_vertex, target_vertex (the nearest), face,
-          weight_0 weight_1 weight_2 (where on that face), x y z, valid, distortion, confidence
-    .mat  for MATLAB, indices from 1: vertex, face, barycentric, position, valid, distortion, confidence, status,
-          n_source, n_target
+          weight_0 weight_1 weight_2 (where on that face), x y z, valid, distortion, confidence,
+          growth (log of the change of length around the vertex)
+    .mat  for MATLAB, indices from 1: vertex, face, barycentric, position, valid, distortion, confidence, growth,
+          status, n_source, n_target
     """
     from geodesics import read_mesh
     from gmds import Correspondence

@@ -63,7 +63,7 @@ def command(source: Path, target: Path, output: Path, as_json: bool, **options: 
         note(f"gmds: {line}")
     answer.save(output)
     emit({"map": str(output), "cpu_seconds": seconds, **map_summary(answer, as_json)}, as_json)
-    shown = {name: options[name] for name in ("report", "picture", "up")}
+    shown = {name: options[name] for name in ("report", "picture", "show", "up")}
     write_views(answer, **shown, title=f"{source.name} → {target.name}", names=(source.name, target.name))
 
 

@@ -48,7 +48,7 @@ def test_the_page_holds_both_surfaces_and_every_map(answer: Correspondence, tmp_
         v = shown["vertices"].reshape(-1, 3)
         assert np.ptp(np.linalg.norm(v[0] - v, axis=1)[1:] / spread[1:]) < 1e-4  # the same shape, turned and scaled
         assert np.linalg.norm(v, axis=1).max() <= 0.5
-    assert [mode["key"] for mode in data["modes"]] == ["match", "distortion", "valid", "error"]
+    assert [mode["key"] for mode in data["modes"]] == ["match", "distortion", "valid", "growth", "error"]
     assert [one["name"] for one in data["maps"]] == ["Best map", "Candidate 1, mirrored"]
 
 
