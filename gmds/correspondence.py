@@ -102,8 +102,7 @@ class Correspondence:
         return f"Correspondence({counts}, {self.status.name})"
 
     def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
-        """For notebooks: a small picture and a few figures (see `gmds.report.notebook`)."""
-        return mimebundle(self)
+        return mimebundle(self)  # for notebooks
 
     @cached_property
     def covered(self) -> Bools:

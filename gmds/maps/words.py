@@ -16,8 +16,8 @@ WORDS = {
         "other, they have to."
     ),
     "growth": (
-        "The natural logarithm of how much longer things around a point became from source to target, beside the whole: "
-        "0.69 is twice as long, -0.69 half as long."
+        "The natural logarithm of how much longer things around a point became from source to target, beside the "
+        "whole: 0.69 is twice as long, -0.69 half as long."
     ),
     "stress": (
         "The mean difference between distances on the source and those between the same points on the target, over the "
