@@ -19,8 +19,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 import geodesics
+from gmds.deformations import achieved_log_scale
 from gmds.pictures import write_picture, write_values
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -111,6 +113,65 @@ def part_and_whole(path: Path, example: Names) -> None:
     write_picture(path, example["back"], names=("whole", "part"), pixels=PIXELS)
 
 
+def canonical_forms(path: Path, example: Names) -> None:
+    """12: both poses, and their forms in the metric of space and in that of (2.1)."""
+    panels = [(pose, mesh, mesh.vertices[:, 0]) for pose, mesh in example["poses"].items()]
+    for (exponent, method), pair in example["forms"].items():
+        if method == "least squares":
+            name = "space" if exponent == 0 else "|K| g"
+            first = pair[0].positions @ np.linalg.svd(pair[0].positions, full_matrices=False)[2].T
+            second = pair[1].positions
+            u, _, vt = np.linalg.svd(second[example["partner"]].T @ first)
+            for (pose, mesh), positions in zip(example["poses"].items(), (first, second @ u @ vt), strict=True):
+                panels.append((f"{name}, {pose}", geodesics.Mesh(positions, mesh.faces), mesh.vertices[:, 0]))
+    write_values(path, panels, pixels=PIXELS * 2 // 3)
+
+
+def matrices(path: Path, example: Names) -> None:
+    """13: functional maps and self functional maps as images."""
+    shown = {f"{name}\nC": found.matrix for name, found in example["maps"].items()}
+    names = ("self, standing", "self, walking")
+    shown |= {f"{name}\n|C|": np.abs(c) for name, c in zip(names, example["signatures"], strict=True)}
+    figure = Figure(figsize=(11, 2.3), dpi=80, layout="constrained")
+    for axis, (name, matrix) in zip(figure.subplots(1, len(shown)), shown.items(), strict=True):
+        limit = np.abs(matrix).max()
+        colours = {"cmap": "RdBu_r", "vmin": -limit} if name.endswith("\nC") else {"cmap": "cividis", "vmin": 0}
+        axis.imshow(matrix, vmax=limit, interpolation="nearest", **colours)
+        axis.set_title(name, fontsize=10)
+        axis.set_xticks([])
+        axis.set_yticks([])
+    figure.savefig(path)
+
+
+def rough_and_improved(path: Path, example: Names) -> None:
+    """14: how far the target reaches, carried by the rough map and by the improved one."""
+    height = example["target"].vertices[:, 0]
+    carried = [("rough", example["rough"]), ("spectral GMDS", example["placed"].points), ("truth", example["true"])]
+    panels = [(name, example["source"], points.interpolate(height)) for name, points in carried]
+    write_values(path, panels, pixels=PIXELS)
+
+
+def bounds(path: Path, example: Names) -> None:
+    """15: upper bounds of the Gromov-Wasserstein distance as matrices."""
+    names, most = list(example["shapes"]), max(matrix.max() for matrix in example["apart"].values())
+    figure = Figure(figsize=(8.5, 3.2), dpi=80, layout="constrained")
+    for (metric, matrix), axis in zip(example["apart"].items(), figure.subplots(1, 2), strict=True):
+        axis.imshow(matrix, cmap="cividis", vmin=0, vmax=most)
+        axis.set_title(f"Gromov-Wasserstein at most, {metric}", fontsize=10)
+        axis.set_xticks([])
+        axis.set_yticks(range(len(names)), names, fontsize=10)
+        for (i, j), value in np.ndenumerate(matrix):
+            axis.text(j, i, f"{value:.3f}", ha="center", va="center", color="black" if value > most / 2 else "white")
+    figure.savefig(path)
+
+
+def caricatures(path: Path, example: Names) -> None:
+    """16: the animal and its caricatures, coloured by the logarithm of the growth of lengths."""
+    drawn = example["caricatures"].items()
+    panels = [(f"gamma {exponent:g}", one, achieved_log_scale(example["mesh"], one)) for exponent, one in drawn]
+    write_values(path, panels, pixels=PIXELS)
+
+
 def specimen(path: Path, _: Names) -> None:
     """The morphometrics script has drawn its specimens itself; one of them, smaller."""
     from PIL import Image
@@ -132,6 +193,11 @@ DRAWN: dict[str, Callable[[Path, Names], None]] = {
     "09_transfer": labels,
     "10_eigenfunctions": eigenfunctions,
     "11_parts": part_and_whole,
+    "12_canonical_forms": canonical_forms,
+    "13_functional_maps": matrices,
+    "14_spectral_gmds": rough_and_improved,
+    "15_how_far_apart": bounds,
+    "16_caricature": caricatures,
     "morphometrics/landmark_specimens": specimen,
 }
 

@@ -14,7 +14,11 @@ from gmds.moved_paths import MOVED
 
 if TYPE_CHECKING:
     from gmds.batch import match_collection as match_collection
+    from gmds.canonical_forms import CanonicalForm as CanonicalForm
+    from gmds.canonical_forms import canonical_form as canonical_form
     from gmds.comparison.distortion import dissimilarity as dissimilarity
+    from gmds.comparison.gromov_hausdorff import gromov_hausdorff_bounds as gromov_hausdorff_bounds
+    from gmds.comparison.gromov_wasserstein import gromov_wasserstein_bounds as gromov_wasserstein_bounds
     from gmds.comparison.profiles import distance_profile as distance_profile
     from gmds.comparison.profiles import least_distortion as least_distortion
     from gmds.correspondence import Correspondence as Correspondence
@@ -27,6 +31,12 @@ if TYPE_CHECKING:
     from gmds.evaluation import error_curve as error_curve
     from gmds.evaluation import geodesic_error as geodesic_error
     from gmds.evaluation import summary as summary
+    from gmds.functional_maps import FunctionalMap as FunctionalMap
+    from gmds.functional_maps import SpectralPlacement as SpectralPlacement
+    from gmds.functional_maps import functional_map as functional_map
+    from gmds.functional_maps import self_functional_features as self_functional_features
+    from gmds.functional_maps import self_functional_map as self_functional_map
+    from gmds.functional_maps import spectral_gmds as spectral_gmds
     from gmds.landmarks.soft import SoftLandmarks as SoftLandmarks
     from gmds.maps.growth import Growth as Growth
     from gmds.maps.growth import growth_between as growth_between
@@ -51,7 +61,13 @@ if TYPE_CHECKING:
 # every public name, by the module it lives in
 _NAMES = {
     "batch": ("match_collection",),
+    "canonical_forms": (
+        "CanonicalForm",
+        "canonical_form",
+    ),
     "comparison.distortion": ("dissimilarity",),
+    "comparison.gromov_hausdorff": ("gromov_hausdorff_bounds",),
+    "comparison.gromov_wasserstein": ("gromov_wasserstein_bounds",),
     "comparison.profiles": (
         "distance_profile",
         "least_distortion",
@@ -69,6 +85,14 @@ _NAMES = {
         "error_curve",
         "geodesic_error",
         "summary",
+    ),
+    "functional_maps": (
+        "FunctionalMap",
+        "SpectralPlacement",
+        "functional_map",
+        "self_functional_features",
+        "self_functional_map",
+        "spectral_gmds",
     ),
     "landmarks.soft": ("SoftLandmarks",),
     "maps.growth": (

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from scipy.spatial.distance import squareform
 
 from geodesics.arrays import Floats, Integers
+from gmds.canonical_forms.classical import classical_scaling
 
 
 def tree(matrix: ArrayLike) -> Floats:
@@ -34,17 +35,11 @@ def leaf_order(linkage: Floats) -> Integers:
 def plane_map(matrix: ArrayLike, dimensions: int = 2) -> Floats:
     """A point (k, dimensions) for each shape, so that distances in the plane come near the dissimilarities (k, k).
 
-    Classical multidimensional scaling: the leading eigenvectors of -J D^2 J / 2, J the centring matrix, each scaled by
-    the root of its eigenvalue (Torgerson 1952), and turned so that its largest entry is positive.
+    By classical multidimensional scaling (`gmds.canonical_forms.classical_scaling`); one shape alone is at the origin.
     """
-    squared = np.asarray(matrix, dtype=np.float64) ** 2
-    centred = -0.5 * (squared - squared.mean(axis=0) - squared.mean(axis=1)[:, None] + squared.mean())
-    values, vectors = np.linalg.eigh(centred)
-    places = np.zeros((len(squared), dimensions))
-    for k in range(min(dimensions, len(squared))):
-        axis = vectors[:, -1 - k] * np.sqrt(max(values[-1 - k], 0.0))
-        places[:, k] = axis * (np.sign(axis[np.abs(axis).argmax()]) or 1.0)
-    return places
+    if len(np.asarray(matrix)) < 2:
+        return np.zeros((len(np.asarray(matrix)), dimensions))
+    return classical_scaling(matrix, dimensions)
 
 
 def nearest(matrix: ArrayLike, count: int = 1) -> Integers:

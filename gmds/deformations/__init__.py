@@ -6,6 +6,7 @@ strengths. Random choices take a seed and repeat exactly.
 """
 
 from gmds.deformations.bending import bending
+from gmds.deformations.caricature import caricature
 from gmds.deformations.cut import cut
 from gmds.deformations.global_scale import global_scale
 from gmds.deformations.gluing import gluing
@@ -28,6 +29,7 @@ __all__ = [
     "achieved_log_scale",
     "bending",
     "branch_log_scale",
+    "caricature",
     "carried",
     "compose",
     "cut",

@@ -105,3 +105,36 @@ def test_11_a_part_finds_its_place(run, tmp_path: Path) -> None:
     assert float(re.search(r"mean error x100 ([\d.]+)", text).group(1)) < 2.5  # 0.6 when written
     assert 55 < int(re.search(r"back: (\d+) %", text).group(1)) < 67
     assert (tmp_path / "parts.png").exists()
+
+
+def test_12_canonical_forms_bring_poses_together(run) -> None:
+    apart = table(run(12), r"(as they are|\|K\|\^\d g, [a-z ]+?) +([\d.]+) % apart")
+    plain = apart.pop(("as they are",))
+    assert len(apart) == 6 and max(apart.values()) < plain
+    assert apart["|K|^1 g, least squares",] < 0.7 * plain
+
+
+def test_13_functional_maps(run) -> None:
+    errors = table(run(13), r"(descriptors|zoomed out|mirrored|from the truth) .*mean error x100 +([\d.]+)")
+    assert errors["zoomed out",] < 2.5 < errors["descriptors",] < errors["mirrored",]
+
+
+def test_14_spectral_gmds_improves_a_rough_map(run) -> None:
+    errors = table(run(14), r"(rough map|orthogonal matrix|points on the triangles) +mean error x100 +([\d.]+)")
+    rough = errors.pop(("rough map",))
+    assert len(errors) == 2 and max(errors.values()) < 0.5 * rough
+
+
+def test_15_bounds_hold_and_a_large_head_matters_less_in_the_invariant_metric(run) -> None:
+    row = r"(space|invariant) +(.+?) +Hausdorff ([\d.]+) to ([\d.]+), Wasserstein ([\d.]+) to ([\d.]+)"
+    found = re.findall(row, run(15))
+    assert len(found) == 12
+    assert all(float(row[2]) <= float(row[3]) and float(row[4]) <= float(row[5]) for row in found)
+    upper = {(row[0], row[1]): float(row[5]) for row in found}
+    assert upper["invariant", "standing, large head"] < upper["space", "standing, large head"]
+
+
+def test_16_the_metric_undoes_a_caricature(run) -> None:
+    rows = re.findall(r"gamma ([\d.]+): .*change by +([\d.]+) % in space, +([\d.]+) % in", run(16))
+    space, invariant = (float(x) for x in rows[-1][1:])
+    assert len(rows) == 3 and invariant < 0.6 * space

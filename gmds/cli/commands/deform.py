@@ -53,6 +53,7 @@ def command(
       local-scale     limbs grow and shrink in turn       factor, count
       noise           on every vertex                     strength (in edges)
       shot-noise      on few vertices, strong             strength (in edges), share
+      caricature      what is curved grows                exponent
       similarity      turned, moved and resized           largest_scale
       cut             a share of the area is cut off      share, normal (x:y:z), centre (vertex), count
       scan            what is seen from one side is kept  direction (x:y:z)
@@ -92,10 +93,11 @@ def command(
 
 def _step(text: str, strength: int, seed: int) -> tuple[Deformation, dict[str, Any]]:
     """The deformation that KIND[:STRENGTH | :NAME=VALUE,...] stands for, and a description of it."""
-    from gmds.deformations import KINDS, Kind, cut, remeshing, scan, similarity
+    from gmds.deformations import KINDS, Kind, caricature, cut, remeshing, scan, similarity
 
     known = {
         **KINDS,
+        "caricature": Kind(caricature, {"exponent": (0.1, 0.2, 0.3, 0.4, 0.5)}),
         "similarity": Kind(similarity, {}),
         "remesh": Kind(remeshing, {}),
         "cut": Kind(cut, {"share": (0.1, 0.2, 0.3, 0.4, 0.5)}),

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from generated_shapes import ellipsoid, icosphere, joined, rectangle, torus, with_isolated
 
-from geodesics import Mesh, MeshError, SurfacePoints, intrinsic
+from geodesics import Mesh, MeshError, SurfacePoints, intrinsic, scale_invariant
 from geodesics.errors import BadShape, NotManifold
 from geodesics.topology.components import boundary_vertices, vertex_components
 from gmds import deformations as d
@@ -18,6 +18,7 @@ from gmds.shapes import quadruped
 EVERY = {
     "local_scaling": lambda m, rng: d.local_scaling(m, d.branch_log_scale(m, 1.6, rng=rng)),
     "global_scale": lambda m, rng: d.global_scale(m, 2.0 + rng),
+    "caricature": lambda m, rng: d.caricature(m, 0.2 + 0.1 * rng),
     "similarity": lambda m, rng: d.similarity(m, largest_scale=3, rng=rng),
     "bending": lambda m, rng: d.bending(m, 25, rng=rng),
     "noise": lambda m, rng: d.noise(m, rng=rng),
@@ -28,7 +29,7 @@ EVERY = {
     "scan": lambda m, rng: d.scan(m, rng=rng),
     "remeshing": lambda m, rng: d.remeshing(m, 600, rng=rng),
 }
-SAME_FACES = ("local_scaling", "global_scale", "similarity", "bending", "noise", "shot_noise")
+SAME_FACES = ("local_scaling", "global_scale", "caricature", "similarity", "bending", "noise", "shot_noise")
 
 
 @pytest.fixture(scope="module")
@@ -65,6 +66,24 @@ def test_deformations_commute_with_a_change_of_unit(animal: Mesh, name: str, sca
         return
     assert np.array_equal(plain[0].faces, large[0].faces)
     assert np.allclose(large[0].vertices / scale, plain[0].vertices, atol=1e-6)
+
+
+def test_the_caricature_of_a_sphere_is_the_sphere_and_of_nothing_the_mesh(animal: Mesh) -> None:
+    ball = icosphere(3)
+    grown, _ = d.caricature(ball, 0.4)
+    assert np.allclose(grown.vertices, ball.vertices, atol=0.02)
+    assert np.allclose(d.caricature(animal, 0.0)[0].vertices, animal.vertices, atol=1e-9)
+
+
+def test_lengths_of_a_caricature_grow_with_curvature_and_its_opposite_undoes_it(animal: Mesh) -> None:
+    before = scale_invariant(animal).conformal_factor
+    grown, shrunk = d.caricature(animal, 0.3)[0], d.caricature(animal, -0.3)[0]
+    for mesh, sign in ((grown, 1), (shrunk, -1)):
+        achieved = d.achieved_log_scale(animal, mesh)
+        assert sign * np.corrcoef(achieved, np.log(before))[0, 1] > 0.8
+    turned, _ = d.caricature(d.similarity(animal, rng=4)[0], 0.3)
+    lengths = [edge_lengths(mesh) / np.sqrt(mesh.area) for mesh in (turned, grown)]
+    assert np.allclose(*lengths, atol=1e-6)
 
 
 def test_a_constant_scale_field_is_a_similarity() -> None:

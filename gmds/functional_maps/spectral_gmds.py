@@ -1,0 +1,169 @@
+"""Spectral generalised multidimensional scaling: an orthogonal matrix that carries distances over."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from geodesics import Distance, Spectrum, SurfacePoints, distance_matrix, eigenpairs, embedded, farthest_point_sampling
+from geodesics.arrays import Floats
+from geodesics.distance import as_distance
+from geodesics.errors import BadArgument
+from gmds.canonical_forms.spectral import squared_distances_in_eigenfunctions
+from gmds.functional_maps.representation import FunctionalMap
+from gmds.surface.view import View
+
+SAMPLES = 300  # of each surface, by which its distances are known; set by hand, as for `canonical_form`
+FIRST = 20  # eigenfunctions in which a map of points is written first: with 6 or 12 some distances lose it; set by hand
+STEPS = 100  # of the ascent with as many eigenfunctions, at the most; set by hand
+STAY = 1e-9  # of the tangent, by which C stays where no distance has a say: a bound, far below what distances say
+FLAT = 1e-9  # share of the objective by which a step has to raise it, or it is the last: rounding
+
+
+@dataclass(frozen=True, eq=False)
+class SpectralPlacement:
+    """Where spectral GMDS placed a surface: `map` (a `FunctionalMap`), with the `points` (n,) of the target.
+
+    `stress` is the root of the mean square of what is left of the squared distances, over that of the source's.
+    """
+
+    map: FunctionalMap
+    points: SurfacePoints
+    stress: float
+
+    def __repr__(self) -> str:
+        return f"SpectralPlacement({self.map!r}, stress {self.stress:.4g})"
+
+
+def spectral_gmds(
+    source_distance: Distance,
+    target_distance: Distance,
+    start: SurfacePoints | FunctionalMap | ArrayLike | Any,
+    *,
+    count: int = 40,
+    samples: int = SAMPLES,
+) -> SpectralPlacement:
+    r"""Generalised multidimensional scaling in eigenfunctions: an orthogonal matrix instead of points (sec. 5).
+
+    .. math:: \min_{C^T C = I} \| C^T \alpha_S C - \alpha_Q \|_F, \qquad
+              d^2(x, y) = \sum_{ij} \alpha_{ij} \phi_i(x) \phi_j(y)
+
+    All distances of a surface are k x k numbers. A step replaces C by the orthogonal matrix nearest to
+    :math:`\alpha_S C \alpha_Q`, which never lowers :math:`\mathrm{tr}(C^T \alpha_S C \alpha_Q)`; steps alternate with
+    going to points and back, as the number of eigenfunctions grows from that of the start.
+
+    Parameters
+    ----------
+    source_distance, target_distance : Distance
+        Distances of the two surfaces, geodesic in the original. Eigenfunctions are those of their spectra or metrics.
+    start : SurfacePoints, FunctionalMap, Correspondence or array_like of int
+        A rough map: a functional map of few eigenfunctions, or the point of the target for each source vertex.
+    count : int
+        Eigenfunctions in the end.
+    samples : int
+        Farthest points of each surface by which distances are known.
+
+    Returns
+    -------
+    SpectralPlacement
+        With a point for each source vertex. In the metrics :math:`|K|^a g` with a up to 1/2 it improves a rough map;
+        with a = 1 the matrix of least stress is often that of another map.
+
+    Raises
+    ------
+    ValueError
+        Where there are fewer eigenfunctions.
+
+    References
+    ----------
+    Aflalo, Dubrovina, Kimmel: Spectral generalized multi-dimensional scaling (2016); sec. 5 of Aflalo, Kimmel, Raviv
+    (2013).
+
+    See Also
+    --------
+    solve : Places samples anywhere on the triangles.
+    functional_map : From descriptors.
+    """
+    distances = as_distance(source_distance), as_distance(target_distance)
+    ours, theirs = (View.of(_spectrum(each, count)) for each in distances)
+    if min(ours.functions.shape[1], theirs.functions.shape[1]) < count or count < 2:
+        raise BadArgument(f"both surfaces need {count} eigenfunctions, and at least 2")
+    ours, theirs = ours.first(count), theirs.first(count)
+    first, second = _squared(distances[0], ours, samples), _squared(distances[1], theirs, samples)
+    unit = np.sqrt((first**2).sum())
+    now = start if isinstance(start, FunctionalMap) else _of_points(ours, theirs, start)
+    now = FunctionalMap(ours, theirs, now.matrix)
+    for size in _sizes(min(*now.matrix.shape), count):
+        matrix = np.zeros((size, size))
+        k = min(size, *now.matrix.shape)
+        matrix[:k, :k] = now.matrix[:k, :k]
+        improved = carried_over(first[:size, :size], second[:size, :size], matrix)
+        points = FunctionalMap(ours, theirs, improved).points()
+        now = FunctionalMap.of_points(ours, theirs, points, min(count, 2 * size))
+    matrix = carried_over(first, second, now.matrix)
+    left = matrix.T @ first @ matrix - second
+    final = FunctionalMap(ours, theirs, matrix)
+    return SpectralPlacement(final, final.points(), float(np.sqrt((left**2).sum()) / unit))
+
+
+def carried_over(first: Floats, second: Floats, start: Floats) -> Floats:
+    """The orthogonal matrix C, reached from `start`, for which tr(C^T first C second) rises no more.
+
+    The constant function stays what it is. The rest of squared distances is negative where they are those of points in
+    a Euclidean space, and nearly so else: its negative, shifted by the little that is missing, makes the trace convex,
+    so that the orthogonal matrix that its tangent likes best raises it.
+    """
+    inner = [_positive(-alpha[1:, 1:]) for alpha in (first, second)]
+    linear = np.outer(first[1:, 0], second[0, 1:])
+    turn, value = _nearest_orthogonal(start[1:, 1:]), -np.inf
+    for _ in range(STEPS):
+        image = inner[0] @ turn @ inner[1]
+        reached = float((turn * (image + 2 * linear)).sum())
+        if reached - value <= FLAT * abs(reached):
+            break
+        tangent = image + linear
+        turn, value = _nearest_orthogonal(tangent + STAY * np.linalg.norm(tangent) * turn), reached
+    matrix = np.eye(len(first))
+    matrix[1:, 1:] = turn
+    return matrix
+
+
+def _positive(matrix: Floats) -> Floats:
+    """The matrix plus as much of the identity as makes its eigenvalues non-negative."""
+    return np.asarray(matrix + max(0.0, -np.linalg.eigvalsh(matrix)[0]) * np.eye(len(matrix)), dtype=np.float64)
+
+
+def _nearest_orthogonal(matrix: Floats) -> Floats:
+    u, _, vt = np.linalg.svd(matrix)
+    return np.asarray(u @ vt, dtype=np.float64)
+
+
+def _sizes(begin: int, end: int) -> list[int]:
+    """Numbers of eigenfunctions on the way, each a fifth more."""
+    steps = 1 + max(1, int(np.log(end / begin) / np.log(1.2)))
+    return [int(k) for k in np.unique(np.append(np.geomspace(begin, end, steps), end).astype(int))]
+
+
+def _squared(distance: Distance, view: View, samples: int) -> Floats:
+    """The squared distances of a surface in its eigenfunctions (k, k), over their mean."""
+    chosen = farthest_point_sampling(distance, min(samples, len(view.usable)))
+    found = squared_distances_in_eigenfunctions(view.spectrum, chosen, distance_matrix(distance, chosen))
+    return np.asarray(found / (found[0, 0] * view.functions[view.usable[0], 0] ** 2), dtype=np.float64)
+
+
+def _spectrum(distance: Distance, count: int) -> Spectrum:
+    """That of the distance if it is rich enough, else of its metric, else of the metric of space."""
+    spectrum = getattr(distance, "spectrum", None)
+    if isinstance(spectrum, Spectrum) and len(spectrum.eigenvalues) >= count:
+        return spectrum
+    return eigenpairs(getattr(distance, "metric", None) or embedded(distance.mesh), count)
+
+
+def _of_points(source: View, target: View, start: Any) -> FunctionalMap:
+    points = getattr(start, "points", start)
+    if not isinstance(points, SurfacePoints):
+        points = SurfacePoints.at_vertices(target.mesh, points)
+    return FunctionalMap.of_points(source, target, points, FIRST)
