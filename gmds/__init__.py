@@ -31,12 +31,6 @@ if TYPE_CHECKING:
     from gmds.evaluation import error_curve as error_curve
     from gmds.evaluation import geodesic_error as geodesic_error
     from gmds.evaluation import summary as summary
-    from gmds.functional_maps import FunctionalMap as FunctionalMap
-    from gmds.functional_maps import SpectralPlacement as SpectralPlacement
-    from gmds.functional_maps import functional_map as functional_map
-    from gmds.functional_maps import self_functional_features as self_functional_features
-    from gmds.functional_maps import self_functional_map as self_functional_map
-    from gmds.functional_maps import spectral_gmds as spectral_gmds
     from gmds.landmarks.soft import SoftLandmarks as SoftLandmarks
     from gmds.maps.growth import Growth as Growth
     from gmds.maps.growth import growth_between as growth_between
@@ -57,6 +51,12 @@ if TYPE_CHECKING:
     from gmds.mds.tabulated import TabulatedDistance as TabulatedDistance
     from gmds.retrieval import BagOfFeatures as BagOfFeatures
     from gmds.retrieval import retrieve as retrieve
+    from gmds.spectral_maps import FunctionalMap as FunctionalMap
+    from gmds.spectral_maps import SpectralPlacement as SpectralPlacement
+    from gmds.spectral_maps import functional_map as functional_map
+    from gmds.spectral_maps import self_functional_features as self_functional_features
+    from gmds.spectral_maps import self_functional_map as self_functional_map
+    from gmds.spectral_maps import spectral_gmds as spectral_gmds
 
 # every public name, by the module it lives in
 _NAMES = {
@@ -86,7 +86,7 @@ _NAMES = {
         "geodesic_error",
         "summary",
     ),
-    "functional_maps": (
+    "spectral_maps": (
         "FunctionalMap",
         "SpectralPlacement",
         "functional_map",

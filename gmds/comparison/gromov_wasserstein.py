@@ -12,7 +12,7 @@ from geodesics.errors import BadArgument
 from gmds.comparison.gromov_hausdorff import Bounds, finite_square
 
 STEPS = 50  # conditional gradients, at the most: a bound, descents of 100 points take about ten
-ORDERS = (1, 2)
+ORDERS = (1, 2)  # a convention: means, and root mean squares
 
 
 def gromov_wasserstein_bounds(
@@ -64,7 +64,7 @@ def gromov_wasserstein_bounds(
     third = 0.5 * float(local[assigned].mean()) ** (1 / order)
     second_bound = 0.5 * _power_mean(np.sort(a.ravel()), np.sort(b.ravel()), order)
     eccentricity = [np.sort((d**order).mean(axis=1) ** (1 / order)) for d in (a, b)]
-    first_bound = 0.5 * _power_mean(*eccentricity, order)
+    first_bound = 0.5 * _power_mean(eccentricity[0], eccentricity[1], order)
     starts = [assigned[1]] if start is None else [np.asarray(start, dtype=np.int64)]
     upper = min(0.5 * _cost(a, b, _descended(a, b, one, order), order) ** (1 / order) for one in starts)
     return Bounds(max(first_bound, second_bound, third), upper)

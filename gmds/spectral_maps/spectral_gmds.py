@@ -13,7 +13,7 @@ from geodesics.arrays import Floats
 from geodesics.distance import as_distance
 from geodesics.errors import BadArgument
 from gmds.canonical_forms.spectral import squared_distances_in_eigenfunctions
-from gmds.functional_maps.representation import FunctionalMap
+from gmds.spectral_maps.representation import FunctionalMap
 from gmds.surface.view import View
 
 SAMPLES = 300  # of each surface, by which its distances are known; set by hand, as for `canonical_form`

@@ -12,8 +12,8 @@ from geodesics import Mesh, Metric, Spectrum, SurfacePoints, wave_kernel_signatu
 from geodesics.arrays import Floats
 from geodesics.errors import BadArgument, BadShape
 from geodesics.spectrum import as_spectrum
-from gmds.functional_maps.operators import multiplication, orientation_operator
-from gmds.functional_maps.representation import FunctionalMap
+from gmds.spectral_maps.operators import multiplication, orientation_operator
+from gmds.spectral_maps.representation import FunctionalMap
 from gmds.surface.view import View
 
 Surface = Spectrum | Metric | Mesh

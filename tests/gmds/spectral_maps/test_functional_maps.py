@@ -14,9 +14,9 @@ import geodesics
 import gmds
 from geodesics import Mesh, SurfacePoints
 from geodesics.errors import BadArgument, BadShape
-from gmds.functional_maps.operators import multiplication, orientation_operator
-from gmds.functional_maps.spectral_gmds import carried_over
 from gmds.shapes import truth
+from gmds.spectral_maps.operators import multiplication, orientation_operator
+from gmds.spectral_maps.spectral_gmds import carried_over
 from gmds.surface.view import View
 
 
