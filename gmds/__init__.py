@@ -13,6 +13,8 @@ from gmds._version import __version__ as __version__
 from gmds.moved_paths import MOVED
 
 if TYPE_CHECKING:
+    from gmds.atlases import Atlas as Atlas
+    from gmds.atlases import atlas as atlas
     from gmds.batch import match_collection as match_collection
     from gmds.canonical_forms import CanonicalForm as CanonicalForm
     from gmds.canonical_forms import canonical_form as canonical_form
@@ -49,6 +51,7 @@ if TYPE_CHECKING:
     from gmds.mds.solver import solve as solve
     from gmds.mds.status import Status as Status
     from gmds.mds.tabulated import TabulatedDistance as TabulatedDistance
+    from gmds.morphometrics import ShapeModel as ShapeModel
     from gmds.retrieval import BagOfFeatures as BagOfFeatures
     from gmds.retrieval import retrieve as retrieve
     from gmds.spectral_maps import FunctionalMap as FunctionalMap
@@ -60,6 +63,10 @@ if TYPE_CHECKING:
 
 # every public name, by the module it lives in
 _NAMES = {
+    "atlases": (
+        "Atlas",
+        "atlas",
+    ),
     "batch": ("match_collection",),
     "canonical_forms": (
         "CanonicalForm",
@@ -120,6 +127,7 @@ _NAMES = {
     ),
     "mds.status": ("Status",),
     "mds.tabulated": ("TabulatedDistance",),
+    "morphometrics": ("ShapeModel",),
     "retrieval": (
         "BagOfFeatures",
         "retrieve",

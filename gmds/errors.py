@@ -149,3 +149,30 @@ class PictureFormat(FormatError):
     """A picture in a format that there is none of; the message lists those that there are."""
 
     code = "E218"
+
+
+class ModelFileError(FormatError):
+    """A file that should hold a shape model does not, or is damaged."""
+
+    code = "E233"
+
+
+class AtlasFileError(FormatError):
+    """A file that should hold an atlas does not, or is damaged."""
+
+    code = "E234"
+
+
+class NoAtlas(ValueError):
+    """A collection of which no atlas can be made: fewer than two meshes can be matched."""
+
+    code = "E507"
+
+    def __str__(self) -> str:
+        return f"{self.code}: {super().__str__()}"
+
+
+class BadGroups(FormatError):
+    """A table of groups or covariates that cannot be used; the message names the specimen or the column."""
+
+    code = "E235"

@@ -49,7 +49,7 @@ def measure_shape(job: ShapeJob) -> ShapeRecord:
 
 def match_pair(job: PairJob) -> PairRecord:
     """Match two stored shapes and write the map. What differs from run to run, its time, is not written with it."""
-    from gmds import match
+    from gmds.matching.pipeline import match
 
     started = time.process_time()
     record = PairRecord(job.source.name, job.target.name, "failed")

@@ -12,7 +12,7 @@ main = LazyGroup(
     sections={
         "Match": ("demo", "match", "batch"),
         "Use and judge maps": ("landmarks", "transfer", "export", "evaluate", "benchmark"),
-        "Collections of shapes": ("compare", "retrieve"),
+        "Collections of shapes": ("compare", "retrieve", "atlas", "model"),
         "One surface": ("check", "repair", "symmetry", "distances", "voronoi", "signatures", "deform"),
         "This installation": ("doctor", "warmup", "completion"),
     },

@@ -1,0 +1,96 @@
+"""atlas(): a collection of meshes brought to one triangulation, and their mean shape."""
+
+from __future__ import annotations
+
+import contextlib
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from geodesics.errors import BadArgument
+from gmds.atlases.registered import Atlas
+from gmds.atlases.rounds import Progress, Rounds
+from gmds.batch.collection import Collection, Given, Shape
+from gmds.errors import NoAtlas
+from gmds.suggestions import did_you_mean
+
+
+def atlas(
+    shapes: Given,
+    output: str | Path | None = None,
+    *,
+    template: str | None = None,
+    templates: int = 1,
+    rounds: int = 1,
+    mirror: Sequence[str] | str = (),
+    progress: Progress | None = None,
+    **matching: Any,
+) -> Atlas:
+    """Bring many meshes to one triangulation, on which vertex i is the same point of all of them.
+
+    The specimen to which the others are nearest (the medoid by `least_distortion`) is the template, and is matched to
+    each of them by `match_collection`. With several templates each is matched to all; what they say, composed through
+    the first, is put to the vote, and how far they disagree is the `spread`. In later rounds the mean shape is the
+    template.
+
+    Parameters
+    ----------
+    shapes : folder, sequence of paths, or mapping
+        As of `match_collection`.
+    output : path, optional
+        A folder that keeps the maps, from which a later call goes on; a passing one unless given.
+    template : str, optional
+        The name of the first template; the medoid unless given.
+    templates : int
+        How many.
+    rounds : int
+        From the second on, the mean shape is matched to all specimens; rounds end when it moves no more.
+    mirror : names, or "auto"
+        Specimens of the other side, which are mirrored; "auto" finds out which.
+    progress : callable, optional
+        Called as `progress(stage, fraction)`.
+    **matching
+        timeout and client of `match_collection`, and the options of `match`.
+
+    Returns
+    -------
+    Atlas
+        Of all specimens that could be matched; `failures` says which could not, and why.
+
+    Raises
+    ------
+    NoAtlas
+        E507 when fewer than two meshes can be matched.
+    BadArgument
+        E604 for a name that there is none of, or a count below 1.
+    FormatError, OSError, MissingExtra, WorkersNotStarted
+        As `match_collection`.
+
+    See Also
+    --------
+    ShapeModel.from_atlas : What varies in it.
+    """
+    if templates < 1 or rounds < 1:
+        raise BadArgument("there must be one template and one round at least")
+    with contextlib.ExitStack() as stack:
+        folder = Path(output or stack.enter_context(tempfile.TemporaryDirectory(prefix="gmds-"))).absolute()
+        folder.mkdir(parents=True, exist_ok=True)
+        known = _collection(shapes)
+        if isinstance(mirror, str) and mirror == "auto":
+            matching, mirror = {"orientation": "any", **matching}, ("auto",)
+        names = [mirror] if isinstance(mirror, str) else list(mirror)
+        for name in [one for one in (template, *names) if one not in (None, "auto")]:
+            if name not in known:
+                raise BadArgument(f"there is no specimen {name!r}{did_you_mean(str(name), list(known))}")
+        work = Rounds(known, folder, frozenset(names), matching, progress or (lambda stage, share: None), rounds)
+        return work.done(template, templates)
+
+
+def _collection(shapes: Given) -> dict[str, Shape]:
+    try:
+        return dict(Collection.of(shapes).shapes)
+    except BadArgument as error:
+        if "nothing to match" in str(error):
+            raise NoAtlas("an atlas takes two meshes or more, and there is one") from error
+        raise

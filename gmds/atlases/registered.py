@@ -1,0 +1,152 @@
+"""What an atlas is: specimens on one triangulation, their mean shape, and maps between them that agree."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from geodesics import Mesh, SurfacePoints
+from geodesics.arrays import Bools, Floats, Integers
+from geodesics.errors import BadArgument
+from geodesics.io import atomic_write
+from gmds.batch.records import Failure
+from gmds.correspondence import Correspondence
+from gmds.errors import AtlasFileError
+from gmds.files.npz import read_npz
+from gmds.maps.growth import growth_between
+from gmds.morphometrics.procrustes import Superposition, superimposed
+from gmds.suggestions import did_you_mean
+
+MIRROR = np.array([-1.0, 1.0, 1.0])
+
+
+@dataclass(frozen=True, eq=False)
+class Atlas:
+    """Specimens with one triangulation: vertex i is the same point of all of them.
+
+    Attributes
+    ----------
+    names : tuple of str
+        The k specimens, in the order of their names.
+    faces : int64 array of shape (m, 3)
+        The triangles that all share.
+    positions : float64 array of shape (k, n, 3)
+        Where each vertex is on each specimen, in its own place and units; of what is missing, where the mean has it.
+    valid : bool array of shape (k, n)
+        False where a specimen has no such point.
+    mirrored : bool array of shape (k,)
+        Specimens of the other side, which are mirrored before shapes are compared.
+    spread : float64 array of shape (k, n)
+        How far what several templates say is from their median, over the root of the area of the specimen: an error
+        bar; NaN with one template.
+    gap : float64 array of shape (k,)
+        How far the vertices of a specimen are from its registered surface in the mean, over the root of its area.
+    status : tuple of str
+        Of the map from the first template to each.
+    templates : tuple of str
+        Those it was made with, the first first.
+    changes : tuple of float
+        By how much the mean shape moved in each later round, over its centroid size.
+    failures : mapping
+        Specimens that were left out, and why.
+
+    See Also
+    --------
+    atlas : Makes one.
+    ShapeModel : A model of the variation in it.
+    """
+
+    names: tuple[str, ...]
+    faces: Integers
+    positions: Floats
+    valid: Bools
+    mirrored: Bools
+    spread: Floats
+    gap: Floats
+    status: tuple[str, ...]
+    templates: tuple[str, ...]
+    changes: tuple[float, ...] = ()
+    failures: Mapping[str, Failure] = field(default_factory=dict)
+
+    @property
+    def registered(self) -> list[Mesh]:
+        """The specimens (k) as meshes of the common triangulation."""
+        return [Mesh(place, self.faces) for place in self.positions]
+
+    @property
+    def configurations(self) -> Floats:
+        """Positions (k, n, 3) of which those of mirrored specimens are mirrored, so that all are of one side."""
+        return np.where(self.mirrored[:, None, None], self.positions * MIRROR, self.positions)
+
+    @property
+    def superposition(self) -> Superposition:
+        """The specimens but for place, rotation and size."""
+        return superimposed(self.configurations, self.valid)
+
+    @property
+    def mean(self) -> Mesh:
+        """The mean shape, nobody's specimen, of the mean centroid size."""
+        laid = self.superposition
+        return Mesh(laid.mean * laid.sizes.mean(), self.faces)
+
+    @property
+    def growth(self) -> Floats:
+        """By how much lengths grew from the mean of all specimens to each (k, n), as a logarithm (`gmds.maps.growth`).
+
+        From the first specimen to each, less the mean over specimens; NaN where either has no such point. Pose has
+        no part in it.
+        """
+        first = Mesh(self.positions[0], self.faces)
+        grown = np.stack([growth_between(first, Mesh(place, self.faces)).length for place in self.positions])
+        grown[~(self.valid & self.valid[0])] = np.nan
+        known = np.isfinite(grown)
+        return np.asarray(grown - np.where(known, grown, 0).sum(axis=0) / np.maximum(known.sum(axis=0), 1))
+
+    def index(self, name: str) -> int:
+        """The number of a specimen. Raises `BadArgument` (E604) for another name."""
+        if name not in self.names:
+            raise BadArgument(f"there is no specimen {name!r}{did_you_mean(name, self.names)}")
+        return self.names.index(name)
+
+    def map(self, source: str, target: str) -> Correspondence:
+        """The map from one registered specimen to another; around any circle of specimens points come home exactly."""
+        i, j = self.index(source), self.index(target)
+        here, there = Mesh(self.positions[i], self.faces), Mesh(self.positions[j], self.faces)
+        points = SurfacePoints.at_vertices(there, np.arange(there.n_vertices))
+        return Correspondence.from_points(here, points, valid=self.valid[i] & self.valid[j])
+
+    def carry(self, positions: ArrayLike, source: str, target: str) -> Floats:
+        """Where positions (p, 3) on one specimen are on another (p, 3), through the common triangulation."""
+        i, j = self.index(source), self.index(target)
+        points = SurfacePoints.closest(Mesh(self.positions[i], self.faces), positions)
+        return SurfacePoints(Mesh(self.positions[j], self.faces), points.face, points.barycentric).positions
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write a .npz that numpy alone reads, atomically."""
+        names = {key: np.array(getattr(self, key), dtype=np.str_) for key in ("names", "status", "templates")}
+        left_out = np.array([[name, why.code, why.reason] for name, why in self.failures.items()], dtype=np.str_)
+        arrays = {key: getattr(self, key) for key in ("faces", "positions", "valid", "mirrored", "spread", "gap")}
+        rest = {"changes": np.array(self.changes, dtype=np.float64), "left_out": left_out.reshape(-1, 3)}
+        with atomic_write(path) as stream:
+            np.savez(stream, format="gmds-atlas", version=1, mean=self.mean.vertices, **arrays, **names, **rest)  # type: ignore[arg-type]
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Atlas:
+        """Read what `save` wrote. Raises `AtlasFileError` (E234), `OSError`."""
+        try:
+            read = read_npz(Path(path))
+            words = {key: tuple(str(one) for one in read[key]) for key in ("names", "status", "templates")}
+            arrays = {key: read[key] for key in ("faces", "positions", "valid", "mirrored", "spread", "gap")}
+            failures = {str(name): Failure(str(code), str(why)) for name, code, why in read["left_out"]}
+            members: dict[str, Any] = {**words, **arrays}
+            found = cls(**members, changes=tuple(read["changes"].tolist()), failures=failures)
+            Mesh(found.positions[0], found.faces)
+        except (ValueError, KeyError, IndexError) as error:
+            raise AtlasFileError(f"{path} is no atlas that `gmds atlas` wrote ({error})") from error
+        return found

@@ -1,0 +1,144 @@
+"""From templates and maps to an atlas, round by round."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from geodesics import Mesh
+from gmds.atlases.fusion import Fused, fused, gap_of
+from gmds.atlases.registered import MIRROR, Atlas
+from gmds.atlases.sides import is_mirror, moved
+from gmds.atlases.templates import medoids, profiles
+from gmds.batch.collection import Shape
+from gmds.batch.records import WITHOUT_MAP, Failure, PairRecord
+from gmds.batch.run import match_collection
+from gmds.correspondence import Correspondence
+from gmds.errors import NoAtlas
+from gmds.morphometrics.procrustes import superimposed
+
+Progress = Callable[[str, float], None]
+
+PROFILES = 0.1  # share of the bar of progress; set by hand
+MEAN = "mean-shape"
+
+
+@dataclass(eq=False)
+class Rounds:
+    """An atlas on its way."""
+
+    shapes: dict[str, Shape]
+    folder: Path
+    mirror: frozenset[str]
+    matching: dict[str, Any]
+    report: Progress
+    rounds: int
+    failures: dict[str, Failure] = field(default_factory=dict)
+
+    def done(self, template: str | None, count: int) -> Atlas:
+        """The atlas after all rounds."""
+        chosen = self._templates(template, count)
+        found = self._registered(chosen, "maps", 1)
+        changes: list[float] = []
+        while len(changes) + 1 < self.rounds:
+            number = len(changes) + 2
+            before = found.mean
+            self.shapes[MEAN] = Shape(MEAN, before)
+            again = self._registered((MEAN,), f"maps-{number}", number)
+            del self.shapes[MEAN]
+            changes.append(moved(before.vertices, again.mean.vertices))
+            found = again
+        return Atlas(**{**vars(found), "templates": chosen, "changes": tuple(changes), "failures": self.failures})
+
+    def _templates(self, template: str | None, count: int) -> tuple[str, ...]:
+        if template is not None and count == 1:
+            return (template,)
+        known, self.failures = profiles(
+            self.shapes, self.folder / "profiles", lambda s, x: self.report(s, PROFILES * x)
+        )
+        for name in self.failures:
+            del self.shapes[name]
+        if len(known) < 2:
+            raise NoAtlas(f"fewer than two meshes can be measured; {_told(self.failures)}")
+        first = () if template is None else (template,)
+        return (*first, *(name for name in medoids(known, count) if name != template))[:count]
+
+    def _registered(self, templates: tuple[str, ...], maps: str, number: int) -> Atlas:
+        """All specimens on the triangulation of the first template, by maps in a folder of that name."""
+        pairs = [(one, name) for one in templates for name in self.shapes if name != one]
+        origins = {name: self._origin(shape) for name, shape in self.shapes.items()}
+        share = (1 - PROFILES) / self.rounds
+        told = lambda s, x: self.report(s, PROFILES + share * (number - 1 + x))  # noqa: E731
+        batch = match_collection(origins, self.folder / maps, pairs=pairs, progress=told, **self.matching)
+        done = {(pair.source, pair.target): pair for pair in batch.pairs if pair.status not in WITHOUT_MAP}
+        for pair in batch.failed:
+            if pair.source == templates[0]:
+                name = (
+                    pair.source if pair.failure and pair.failure.reason.startswith(f"{pair.source}:") else pair.target
+                )
+                self.failures[name] = pair.failure or Failure("", "its turn never came")
+        first, kept = templates[0], [name for name in self.shapes if (templates[0], name) in done]
+        names = sorted([*kept, *([] if first == MEAN else [first])])
+        if len(kept) < (2 if first == MEAN else 1):
+            raise NoAtlas(f"no specimen can be matched with the template {first}; {_told(self.failures)}")
+        meshes = {name: self._mesh(name) for name in (*templates,)}
+        rows = []
+        for name in names:
+            mesh = meshes.get(name) or self._mesh(name)
+            said = self._said(name, mesh, meshes, list(done), self.folder / maps)
+            rows.append((said, gap_of(mesh, said.places, meshes[first].faces, said.valid)))
+        status = tuple("TEMPLATE" if name == first else done[first, name].status for name in names)
+        return self._atlas(names, meshes[first], [row for row, _ in rows], [gap for _, gap in rows], status)
+
+    def _said(self, name: str, mesh: Mesh, meshes: dict[str, Mesh], done: list[tuple[str, str]], folder: Path) -> Fused:
+        """Where the first template is on a specimen, by all templates."""
+        first, *others = meshes
+
+        def load(source: str, target: str) -> Correspondence:
+            path = folder / "pairs" / f"{source}__{target}.npz"
+            return Correspondence.load(path, meshes[source], meshes.get(target) or mesh)
+
+        if name == first:
+            there = np.isin(np.arange(mesh.n_vertices), mesh.faces)
+            return Fused(
+                mesh.vertices, there, np.zeros(mesh.n_vertices) if others else np.full(mesh.n_vertices, np.nan)
+            )
+        said = [load(first, name)]
+        through = [one for one in others if one != name and (first, one) in done and (one, name) in done]
+        return fused([*said, *(load(first, one).compose(load(one, name)) for one in through)])
+
+    def _atlas(self, names: list[str], template: Mesh, rows: list[Fused], gap: list[float], status: Any) -> Atlas:
+        places, valid = np.stack([row.places for row in rows]), np.stack([row.valid for row in rows])
+        missing = ~valid.any(axis=0)
+        valid = valid | missing  # what nobody has is where the maps say
+        mirrored = np.array([name in self.mirror for name in names])
+        if "auto" in self.mirror:
+            mirrored = np.array([is_mirror(template.vertices, p, v) for p, v in zip(places, valid, strict=True)])
+        turned = np.where((mirrored & ("auto" in self.mirror))[:, None, None], places * MIRROR, places)
+        laid = superimposed(turned, valid)
+        filled = np.stack([move.inverse(laid.mean) for move in laid.moves])
+        places = np.where(valid[:, :, None], turned, filled)
+        places = np.where(mirrored[:, None, None], places * MIRROR, places)  # back to where the specimen lies
+        spread = np.stack([row.spread for row in rows])
+        return Atlas(tuple(names), template.faces, places, valid, mirrored, spread, np.array(gap), status, ())
+
+    def _origin(self, shape: Shape) -> Any:
+        return self._mesh(shape.name) if shape.name in self.mirror else shape.origin
+
+    def _mesh(self, name: str) -> Mesh:
+        mesh = self.shapes[name].mesh()
+        return Mesh(mesh.vertices * MIRROR, mesh.faces[:, [0, 2, 1]]) if name in self.mirror else mesh
+
+
+def _culprit(pair: PairRecord) -> str:
+    """Which of a pair could not be matched."""
+    reason = pair.failure.reason if pair.failure else ""
+    return pair.source if reason.startswith(f"{pair.source}:") else pair.target
+
+
+def _told(failures: dict[str, Failure]) -> str:
+    return "; ".join(f"{name}: {why.code}: {why.reason}" for name, why in list(failures.items())[:5]) or "none failed"
