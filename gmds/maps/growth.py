@@ -168,8 +168,8 @@ def _strain(vertices: Floats, faces: Integers, rise: Floats) -> Floats:
     gradient = np.einsum("mke,mei->mki", np.linalg.pinv(flat, rcond=THINNEST), rise)
     metric = np.einsum("mki,mli->mkl", gradient, gradient)
     values, vectors = np.linalg.eigh(metric)
-    values = np.maximum(values, np.finfo(float).tiny)
-    shear = np.clip(0.25 * np.log(values[:, 1] / values[:, 0]), 0.0, MOST_STRAIN)
+    logs = np.log(np.maximum(values, np.finfo(float).tiny))
+    shear = np.clip(0.25 * (logs[:, 1] - logs[:, 0]), 0.0, MOST_STRAIN)
     axes = np.einsum("mkj,mki->mji", vectors, frame)
     outer = axes[:, 1, :, None] * axes[:, 1, None, :] - axes[:, 0, :, None] * axes[:, 0, None, :]
     return np.asarray(shear[:, None, None] * outer, dtype=np.float64)

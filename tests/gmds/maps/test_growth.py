@@ -77,6 +77,14 @@ def test_a_field_of_scale_comes_back() -> None:
     assert spearmanr(found, raw)[0] > 0.95 and np.median(np.abs(found - raw)) < 0.05
 
 
+def test_triangles_that_collapse_are_no_obstacle() -> None:
+    mesh = icosphere(2)
+    flat = mesh.vertices.copy()
+    flat[:10] = flat[0]
+    found = growth_between(mesh, Mesh(flat, mesh.faces))
+    assert np.isfinite(found.length).all() and np.isfinite(growth_between(Mesh(flat, mesh.faces), mesh).length).all()
+
+
 def test_what_cannot_be_is_refused() -> None:
     with pytest.raises(BadArgument, match="positive share"):
         growth_of(identity(bumpy_sphere(1)), smoothing=0.0)
