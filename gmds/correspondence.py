@@ -42,14 +42,14 @@ class Correspondence:
     valid : bool array of shape (n,)
         False where the vertex has no counterpart; the point of such a row is finite and means nothing.
     distortion : float64 array of shape (n,)
-        By what share lengths around the vertex change, from 0 for none: `gmds.maps.distortion` defines it.
+        By what share lengths around a point change, from 0 for none. `gmds.maps.distortion` has the formula.
     status, candidates : MatchStatus, tuple of Candidate
-        How far the whole can be trusted, and other maps, best first.
+        How far to trust the whole, and other maps, best first.
     meta : mapping
         Parameters, seed, notes (`gmds.matching.notes`), versions, timings, as JSON.
     confidence : float64 array of shape (n,)
-        The probability that the point is within 0.05 root areas of the truth (`gmds.maps.confidence`): 0 where not
-        `valid`, NaN everywhere where nobody rated the map.
+        The probability, from 0 to 1, that a point is sent to within 0.05 root areas of the target of where it belongs;
+        0 where it has no counterpart. NaN everywhere where nobody rated the map; `gmds.maps.confidence` has more.
 
     Raises
     ------

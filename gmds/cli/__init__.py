@@ -11,7 +11,7 @@ main = LazyGroup(
     commands_in="gmds.cli.commands",
     sections={
         "Match": ("demo", "match", "batch"),
-        "Use and judge maps": ("landmarks", "transfer", "export", "evaluate", "benchmark"),
+        "Use and judge maps": ("view", "landmarks", "transfer", "export", "evaluate", "benchmark"),
         "Collections of shapes": ("compare", "retrieve", "atlas", "model"),
         "One surface": ("check", "repair", "symmetry", "distances", "voronoi", "signatures", "deform"),
         "This installation": ("doctor", "warmup", "completion"),

@@ -37,6 +37,11 @@ def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
     return report_option(picture_option(show_option(up_option(command))))
 
 
+def upwards(up: str | None, name: str) -> tuple[int, int, int]:
+    """What is up in a mesh: the axis that was said, else the one of its format."""
+    return UP[up or ("y" if Path(name).suffix.lower() in Y_UP else "z")]
+
+
 def write_views(
     answer: Any,
     report: Path | None,
@@ -52,15 +57,15 @@ def write_views(
 
     `errors`, `title` and `names` are those of `gmds.report.write_report`; the picture shows the errors of the best map.
     """
-    upwards = UP[up or ("y" if Path(names[0]).suffix.lower() in Y_UP else "z")]
+    axis = upwards(up, names[0])
     if report is not None:
         from gmds.report.page import write_report
 
-        write_report(report, answer, errors, title=title, names=names, up=upwards)
+        write_report(report, answer, errors, title=title, names=names, up=axis)
         note(f"wrote {report}")
     if picture is not None:
         from gmds.pictures.panels import write_picture
 
         first = None if errors is None or show != "doubt" else errors[0]
-        told = write_picture(picture, answer, first, title=title, names=names, up=upwards, show=show)
+        told = write_picture(picture, answer, first, title=title, names=names, up=axis, show=show)
         tell_written(picture, told)

@@ -31,8 +31,7 @@ class CarriedLandmarks:
         False where the landmark has no place on the source, or that place no counterpart on the target; such a point
         means nothing.
     distortion, confidence : float64 array of shape (k,)
-        Those of the map there: the confidence is the probability that the landmark is within 0.05 root areas of where
-        it belongs (see `gmds.maps.confidence`), 0 where not `valid`, NaN where nobody rated the map.
+        Those of the map there; the confidence is 0 where not `valid`, NaN where nobody rated the map.
 
     See Also
     --------

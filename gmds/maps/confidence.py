@@ -1,7 +1,7 @@
 r"""What the confidence of a map is: a calibrated probability, at one radius and, by proportional odds, at all others.
 
-`Correspondence.confidence` is the probability :math:`p` that the image of a source vertex lies within `RADIUS` = 0.05
-root areas of the truth. That it lies within another radius r has the odds
+`Correspondence.confidence` is this probability :math:`p` for `RADIUS`. That a point lies within another radius r has
+the odds
 
 .. math:: \frac{p_r}{1 - p_r} = \frac{p}{1 - p} \, e^{a(r)}
 

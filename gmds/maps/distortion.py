@@ -1,4 +1,4 @@
-r"""What the distortion of a map is: the share by which lengths around a vertex change.
+r"""What the distortion of a map is, as a formula.
 
 Of an edge of the source with length :math:`l`, whose ends the map sends :math:`l'` apart in space,
 

@@ -13,7 +13,10 @@ from geodesics.points import SurfacePoints
 
 
 class MatchStatus(Enum):
-    """How far a map can be trusted, best first; the value is a sentence for people.
+    """The status of a map, best first; the value is a sentence for people.
+
+    How far a map as a whole can be trusted, in one word: GOOD, INCOMPLETE, AMBIGUOUS, POOR, or UNRATED where nobody has
+    judged it.
 
     What decides which one a match gets, with its thresholds, is in `gmds/matching/rating.py`.
 
@@ -43,9 +46,11 @@ class Candidate:
     points : SurfacePoints
         A point of the target for every source vertex.
     stress : float
-        Mean |d_S - d_Q| between samples over mean d_S: small is good.
+        The mean difference between distances on the source and those between the same points on the target, over the
+        mean distance: small is good. That is mean |d_S - d_Q| between samples over mean d_S.
     orientation : float
-        From -1 to 1: the share of the image's area whose triangles keep their orientation, minus the rest.
+        From -1 to 1, the share of the area of the image that keeps the orientation of the surface, minus the share that
+        reverses it: near -1 the map is a mirror image.
 
     See Also
     --------

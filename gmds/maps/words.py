@@ -4,17 +4,14 @@ from __future__ import annotations
 
 WORDS = {
     "status": (
-        "How far the whole map can be trusted, in one word: GOOD, INCOMPLETE, AMBIGUOUS, POOR, or UNRATED where nobody "
-        "has judged it."
+        "How far a map as a whole can be trusted, in one word: GOOD, INCOMPLETE, AMBIGUOUS, POOR, or UNRATED where "
+        "nobody has judged it."
     ),
     "confidence": (
         "The probability, from 0 to 1, that a point is sent to within 0.05 root areas of the target of where it "
         "belongs; 0 where it has no counterpart."
     ),
-    "distortion": (
-        "By what share lengths around a point change, from 0 for none: where one animal has a longer neck than the "
-        "other, they have to."
-    ),
+    "distortion": "By what share lengths around a point change, from 0 for none.",
     "growth": (
         "The natural logarithm of how much longer things around a point became from source to target, beside the "
         "whole: 0.69 is twice as long, -0.69 half as long."

@@ -26,7 +26,7 @@ AMBIGUOUS_MARGIN = 0.7
 
 
 def confidence_of(candidate: MapCandidate, margin: float) -> Floats:
-    """The probability (n,) that the image of a vertex of the source is within 0.05 root areas of the truth.
+    """The confidence (n,) of a candidate at the vertices of the source.
 
     It is 0 at vertices of no area, and where a sign is no number, so that nothing can be said.
     """

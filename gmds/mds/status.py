@@ -10,7 +10,7 @@ class Status(Enum):
 
     See Also
     --------
-    MatchStatus : How far a map can be trusted.
+    MatchStatus : That of a map.
     """
 
     CONVERGED = "converged: the linearised problem can lower the stress by next to nothing"

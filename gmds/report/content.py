@@ -96,7 +96,7 @@ def _maps(answer: PointMap) -> list[PointMap]:
 
 def _names(answer: PointMap, title: str) -> list[tuple[str, str]]:
     """A name and a sentence for the map and for each of its candidates."""
-    names = [(title or "Best map", "")]
+    names = [(title or "Best map", " ".join(map(str, answer.meta.get("notes", ()))) if title else "")]
     for i, one in enumerate(answer.candidates, start=1):
         kind = "mirrored" if one.orientation < -0.2 else "not mirrored" if one.orientation > 0.2 else "partly mirrored"
         called = f"{title}, candidate {i}" if title else f"Candidate {i}"

@@ -1,6 +1,7 @@
 // What hands do: pointing, turning, choosing.
 "use strict";
 
+const NEARBY = 6, AROUND = 8; // pixels about the pointer that are tried, and at how many places
 const TURN = Math.PI / 12;
 const SIDES = { front: [0, 0], left: [-Math.PI / 2, 0], back: [Math.PI, 0], right: [Math.PI / 2, 0], top: [0, -Math.PI / 2], below: [0, Math.PI / 2] };
 const KEYS = {
@@ -21,10 +22,17 @@ function link(page, scene) {
 
 function point(page, scene, panel) {
   const side = panel === 1 ? 1 : 0;
-  const under = (event) => {
+  const under = (event, snaps = false) => {
     const box = scene.plot.getBoundingClientRect();
-    const hit = scene.hit(event.clientX - box.left, event.clientY - box.top);
-    return hit && { side, vertex: hit.vertex, panel, hit };
+    const [x, y] = [event.clientX - box.left, event.clientY - box.top];
+    let hit = scene.hit(x, y);
+    for (const far of [NEARBY / 2, NEARBY]) { // a click just beside an outline is meant to be on it
+      if (hit || !snaps) break;
+      const turns = Array.from({ length: AROUND }, (_, i) => (2 * Math.PI * i) / AROUND);
+      const near = turns.map((angle) => scene.hit(x + far * Math.cos(angle), y + far * Math.sin(angle))).filter(Boolean);
+      hit = near.sort((a, b) => a.depth - b.depth)[0];
+    }
+    return hit ? { side, vertex: hit.vertex, panel, hit } : null;
   };
   let waiting = null;
   scene.under = under;
@@ -35,7 +43,7 @@ function point(page, scene, panel) {
   });
   scene.panel.addEventListener("pointerleave", () => page.mark(null));
   handle(scene, (event) => {
-    const found = under(event);
+    const found = under(event, true);
     if (!(page.work && page.work.clicked(found)) && found) page.pin(found);
   });
   scene.panel.addEventListener("keydown", (event) => {

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from geodesics import SurfacePoints
+from geodesics import Mesh, SurfacePoints
+from geodesics.arrays import Floats
 from gmds.maps.point_map import PointMap
 from gmds.report.drawing import Drawing
 
@@ -20,11 +22,19 @@ def landmarks_of(answer: PointMap) -> list[NamedPair]:
     made = answer.meta.get("parameters", {}).get("landmarks")
     if not isinstance(made, Mapping):
         return []
-    sides = []
-    for side, mesh in (("source", answer.source), ("target", answer.target)):
-        face, weights = made[side]["face"], made[side]["barycentric"]
-        sides.append(SurfacePoints(mesh, np.array(face, dtype=np.int64), np.array(weights)).positions)
-    return [(str(i + 1), *pair) for i, pair in enumerate(zip(*sides, strict=True))]
+    try:
+        sides = [_positions(made[side], mesh) for side, mesh in (("source", answer.source), ("target", answer.target))]
+    except (KeyError, TypeError, ValueError):  # a map of somebody else
+        return []
+    count = min(map(len, sides))
+    given = answer.meta.get("landmark_names")  # of the first ones, which hands have placed
+    names = list(map(str, given))[:count] if isinstance(given, list) else [str(i + 1) for i in range(count)]
+    return list(zip(names, *(side[: len(names)] for side in sides), strict=True))
+
+
+def _positions(made: Mapping[str, Any], mesh: Mesh) -> Floats:
+    """Where points of a mesh are that a map says it was made with."""
+    return SurfacePoints(mesh, np.array(made["face"], dtype=np.int64), np.array(made["barycentric"])).positions
 
 
 def places(at: Sequence[ArrayLike | None], drawn: Both) -> list[list[float] | None]:

@@ -23,14 +23,14 @@ MATCH = (
 VALID = "Which points of either surface have a partner. Those without are on a part that the other surface lacks."
 LOOK = {
     "confidence": " Yellow is where to look first.",
-    "distortion": " Yellow changes most.",
+    "distortion": " Where one animal has a longer neck than the other, they have to. Yellow changes most.",
     "growth": " Yellow became longer than the whole did, blue shorter.",
     "error": " Dark blue is right, yellow is wrong.",
 }
 SPARSE = " The truth is known at {} points, drawn as dots; all others have the colour of the nearest of them."
 AXES = {
-    "confidence": "confidence: probability of being within 0.05 √area",
-    "distortion": "distortion: relative change of lengths",
+    "confidence": "confidence",
+    "distortion": "distortion",
     "growth": "growth: log of the change of length, beside that of the whole",
     "error": "error: distance from the true point / √area",
 }

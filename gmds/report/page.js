@@ -16,6 +16,7 @@ class Page {
     this.marks = new Marks(this);
     this.pins = []; // {side, vertex}: stay marked while the surfaces are turned
     this.pointed = null;
+    this.chosenLandmark = -1;
     this.landmarks = data.landmarks; // {name, at: [position on the source or null, on the target or null]}
     this.scenes[1].give("place", data.surfaces[1].vertices);
   }
@@ -230,18 +231,29 @@ class Page {
     let most = -1;
     map.values[mode.key][0].forEach((value, i, all) => { if (map.there.found[i] && Number.isFinite(value) && !(sign * value <= sign * all[most])) most = i; });
     if (most < 0) return;
-    this.turnTo(0, this.scenes[0].vertex(most));
+    this.turnTo(0, most);
     this.pin({ side: 0, vertex: most });
   }
 
-  // the first side from which a point of a panel can be seen
-  turnTo(side, position) {
+  // to the side from which a vertex of a panel is seen best
+  turnTo(side, vertex) {
     const scene = this.scenes[side];
     const kept = scene.camera;
-    const seen = (camera) => { scene.camera = camera; scene.shown = null; return !scene.place(position).hidden; };
-    const steps = Array.from({ length: 12 }, (_, i) => rotated(kept, (i * Math.PI) / 6, 0));
-    const clear = steps.find(seen) || kept;
+    const sums = normals(scene.positions, scene.surface.faces);
+    const normal = unit(Array.from(sums.subarray(3 * vertex, 3 * vertex + 3)));
+    const seen = (camera) => {
+      scene.camera = camera;
+      scene.shown = null;
+      return scene.place(scene.vertex(vertex)).hidden ? -2 : Math.abs(dot(normal, scene.lens.back));
+    };
+    const steps = [0, -0.7, 0.7].flatMap((rise) => Array.from({ length: 12 }, (_, i) => rotated(rotated(kept, 0, rise), (i * Math.PI) / 6, 0)));
+    const worth = steps.map(seen);
     seen(kept);
-    scene.look(clear);
+    const best = steps[worth.indexOf(Math.max(...worth))];
+    seen(best);
+    const { x, y } = scene.place(scene.vertex(vertex));
+    const inside = x > 0 && y > 0 && x < scene.plot.clientWidth && y < scene.plot.clientHeight;
+    seen(kept);
+    scene.look(inside ? best : fitted(this.scenes.slice(0, 2), { ...best, center: FIRST.center, eye: named(minus(xyz(best.eye), xyz(best.center))) }));
   }
 }

@@ -105,12 +105,16 @@ function handle(scene, clicked) {
   const { plot } = scene;
   const fingers = new Map();
   let pressed = null;
+  let working = false; // a tool has the pointer
   plot.addEventListener("pointerdown", (event) => {
+    working = Boolean(scene.tool && event.button === 0 && scene.tool("down", event));
+    if (working) return plot.setPointerCapture(event.pointerId);
     fingers.set(event.pointerId, [event.clientX, event.clientY]);
     pressed = { x: event.clientX, y: event.clientY, far: false };
     plot.setPointerCapture(event.pointerId);
   });
   plot.addEventListener("pointermove", (event) => {
+    if (working) return scene.tool("move", event);
     const last = fingers.get(event.pointerId);
     if (!last) return;
     const [dx, dy] = [event.clientX - last[0], event.clientY - last[1]];
@@ -123,6 +127,10 @@ function handle(scene, clicked) {
     else scene.look(rotated(scene.camera, (-dx * Math.PI) / plot.clientHeight, (-dy * Math.PI) / plot.clientHeight));
   });
   const released = (event) => {
+    if (working) {
+      working = false;
+      return scene.tool("up", event);
+    }
     fingers.delete(event.pointerId);
     if (event.type === "pointerup" && pressed && !pressed.far && event.button === 0) clicked(event);
     if (!fingers.size) pressed = null;

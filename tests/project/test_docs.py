@@ -26,6 +26,7 @@ from sybil.parsers.markdown import CodeBlockParser, PythonCodeBlockParser, SkipP
 import gmds
 from gmds.batch.records import UNEXPECTED, WORKER_DIED
 from gmds.cli import main
+from gmds.demo.files import write_files
 
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 FENCE = re.compile(r"^[ >]*```+(\S*)[^\n]*\n(.*?)^[ >]*```+ *$", re.MULTILINE | re.DOTALL)
@@ -36,8 +37,9 @@ needs_extras = [pytest.importorskip(name) for name in ("matplotlib", "distribute
 
 @pytest.fixture(scope="module")
 def files(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """What `gmds demo --files` writes, with few vertices."""
     folder = tmp_path_factory.mktemp("files")
-    docs_files.write_files(folder)
+    write_files(folder, docs_files.N)
     return folder
 
 
@@ -47,15 +49,34 @@ def client() -> Iterator[Any]:
         yield client
 
 
+def interrupted(*_: Any) -> None:
+    """As by Ctrl-C."""
+    raise KeyboardInterrupt
+
+
 @pytest.fixture
-def among_files(files: Path, client: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with the files that are spoken of; matches are made once, and the demo has few vertices."""
-    shutil.copytree(files, tmp_path, dirs_exist_ok=True)
+def as_a_reader(files: Path, client: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty folder; `gmds demo --files` copies what was written once, matches are made once."""
+
+    def copied(folder: Path) -> list[str]:
+        shutil.copytree(files, folder, dirs_exist_ok=True)
+        return sorted(path.name for path in folder.iterdir())
+
+    monkeypatch.setattr("gmds.demo.files.write_files", copied)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setitem(vars(gmds), "match", docs_files.match)
     monkeypatch.setattr("gmds.batch.local_client", lambda workers: contextlib.nullcontext(client))
     monkeypatch.setattr("gmds.shapes.demo_pair", docs_files.small_pair)
+    monkeypatch.setattr("gmds.viewer.server.PageServer.serve_forever", interrupted)
+    monkeypatch.setattr("click.launch", lambda link: 0)
     return tmp_path
+
+
+@pytest.fixture
+def among_files(files: Path, as_a_reader: Path) -> Path:
+    """The same, with the files in it."""
+    shutil.copytree(files, as_a_reader, dirs_exist_ok=True)
+    return as_a_reader
 
 
 RAN: set[str] = set()
@@ -84,7 +105,8 @@ PARSERS = (PythonCodeBlockParser(), CodeBlockParser(language="sh", evaluator=run
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda path: str(path.relative_to(ROOT)))
-def test_the_code_on_a_page_runs(page: Path, among_files: Path) -> None:
+def test_the_code_on_a_page_runs_from_nothing(page: Path, as_a_reader: Path) -> None:
+    """From top to bottom in an empty folder, as a reader would who begins with this page."""
     text = page.read_text(encoding="utf-8")
     met = 0
     for example in Document.parse(str(page), *PARSERS).examples():

@@ -20,21 +20,28 @@ if TYPE_CHECKING:
 
 @click.command(cls=Command, short_help="Match two built-in shapes and judge the map.")
 @click.option("-o", "--output", default="gmds-demo", show_default=True, type=click.Path(path_type=Path), help="Folder.")
+@click.option("--files", type=click.Path(path_type=Path), metavar="DIR", help="Write the files of the documentation.")
 @seed_option
 @json_option
-def command(output: Path, seed: int, as_json: bool) -> None:
+def command(output: Path, files: Path | None, seed: int, as_json: bool) -> None:
     """Match two built-in shapes and judge the map against the truth.
 
     \b
       gmds demo
       gmds demo -o somewhere --json
+      gmds demo --files .
 
     The shapes are an animal, and the same animal in another pose, with its head twice as big and triangulated anew.
     The error is the mean geodesic distance from the truth over the square root of the area, times 100. It is printed
     for maps that preserve diffusion distances in the metric of space ("regular") and in the scale-invariant metric,
     and for what `match` does unless told otherwise: try both, and end in a metric of its own. The folder then holds
     the meshes, the truth, this last map, a page to turn it in a browser, and a picture.
+
+    With --files nothing is matched: DIR gets dog.ply, wolf.off, landmarks, values, textures and all else that the pages
+    of the documentation speak of, so that what they show can be pasted. Files of these names are overwritten.
     """
+    if files is not None:
+        return _write_files(files, as_json)
     import time
 
     from geodesics import write_mesh
@@ -67,6 +74,13 @@ def command(output: Path, seed: int, as_json: bool) -> None:
     title, names = "An animal, and itself in another pose with a bigger head", ("source.ply", "target.ply")
     write_views(answer, output / "report.html", output / "picture.png", errors, title=title, names=names)
     note(f"map, meshes and truth are in {output}")
+
+
+def _write_files(folder: Path, as_json: bool) -> None:
+    from gmds.demo.files import write_files
+
+    names = write_files(folder)
+    emit({"folder": str(folder), "files": names if as_json else len(names)}, as_json)
 
 
 def _judged(answer: Correspondence, truth: SurfacePoints) -> dict[str, Any]:

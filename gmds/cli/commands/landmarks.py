@@ -67,8 +67,8 @@ def command(
     \b
     For every landmark the table has
       moved       how far it was from the surface of SOURCE, in the units of the mesh
-      confidence  the probability that it is within 0.05 root areas of where it belongs; none for a map that was not
-                  rated, as one of an older release
+      confidence  The probability, from 0 to 1, that a point is sent to within 0.05 root areas of the target of where it
+                  belongs; 0 where it has no counterpart. None for a map that was not rated, as one of an older release
       valid       whether it has a counterpart; where it has none the confidence is 0 and there is no place
 
     Landmarks without a counterpart, or without a place on SOURCE, keep their places in the list: missing or undefined

@@ -34,7 +34,7 @@ def command(mesh: Path, output: Path, vertices: int, as_json: bool, **shown: Any
     A limb or an ear may differ in size from its partner. All symmetries found are listed, the best first:
       reversing    whether left and right are exchanged (a reflection), or not (a rotation)
       stress       how much distances change, over the mean distance
-      orientation  share of the area that keeps its orientation minus the rest
+      orientation  near 1 where orientation is kept, near -1 where it is reversed
       energy       of deforming the surface so
       twice        how far points are from home after the map is done twice, in root areas
 
