@@ -14,7 +14,8 @@ from geodesics.caching import cached_property
 from gmds.correspondence import Correspondence
 from gmds.landmarks.constraints import LandmarkConstraints
 from gmds.maps.point_map import Candidate, MatchStatus
-from gmds.matching.candidates import GivenDistances, make_candidate
+from gmds.matching.candidates import make_candidate
+from gmds.matching.given_distances import GivenDistances
 from gmds.matching.pair import SurfacePair
 from gmds.matching.part_answers import PartAnswer, Parts, likelier_part, maps_of_parts
 from gmds.matching.proposals import Proposal, likely_maps, proposals

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 from geodesics import DiffusionDistance, Distance, SurfacePoints
 from geodesics.arrays import Integers
 from gmds.matching.evidence import Evidence, evidence
+from gmds.matching.given_distances import GivenDistances, placed_in_given
 from gmds.matching.pair import SurfacePair
 from gmds.matching.proposals import Proposal
+from gmds.mds.ladder import solve_by_ladder
 from gmds.mds.losses import Loss
 from gmds.mds.problem import Problem
-from gmds.mds.solver import Solution, solve
+from gmds.mds.solver import Solution
 from gmds.registration.register import Registered, assessed, register
 from gmds.registration.settings import FULL, RegistrationSettings
 from gmds.spectral.extension import extend
-from gmds.spectral.refinement import ROUNDS, upsampled
+from gmds.spectral.refinement import ROUNDS
 from gmds.surface.view import View
 
 FUNCTIONS = 60  # eigenfunctions of the dense map; set by hand
@@ -24,13 +25,6 @@ FUNCTIONS = 60  # eigenfunctions of the dense map; set by hand
 # distance on development pairs, as good as commute time (benchmarks/results/notes.md, "Embedding").
 TIME = 3e-3
 ITERATIONS = 20  # of the solver, at the most: with as many the figures of notes.md, "Embedding", were measured
-
-
-class GivenDistances(NamedTuple):
-    """Distances on source and target that a user gave, and both surfaces in their metrics."""
-
-    views: tuple[View, View]
-    distances: tuple[Distance, Distance]
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,8 +55,8 @@ def make_candidate(
         deformation = registered(pair, points)
         points = deformation.points
     else:
-        views, distances = given
-        points, solution = placed(pair, upsampled(*views, images), views, loss, count, distances)
+        views = given.views
+        points, solution = placed_in_given(pair, images, given, loss, count)
         deformation = assessed(*pair.full, points.positions, FULL)
     weighed = evidence(pair, views, points, proposal.residuals, deformation.residuals)
     return MapCandidate(pair, points, views, solution, deformation, weighed)
@@ -99,7 +93,7 @@ def placed(
     samples = source.samples(count)
     problem = Problem(distances[0], SurfacePoints.at_vertices(pair.source.mesh, samples), distances[1])
     start = SurfacePoints.at_vertices(pair.target.mesh, images[samples])
-    solution = solve(problem, start, loss, max_iterations=ITERATIONS)
+    solution = solve_by_ladder(problem, start, loss, max_iterations=ITERATIONS)
     with_landmarks = pair.with_landmarks(samples, solution.points)
     return extend(source, target, *with_landmarks, common_functions(source, target)), solution
 

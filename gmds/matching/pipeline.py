@@ -67,10 +67,10 @@ def match(  # noqa: PLR0913 - the signature is a promise
     source, target : Mesh or Surface
         The surfaces. A `Surface`, made by `gmds.surface.measure`, keeps what is computed of it for the next match.
     distance : callable, optional
-        A function Mesh -> Distance, called on each surface brought to unit area: starts and embedding use that alone,
-        and the map is not registered.
+        A function Mesh -> Distance of surfaces of unit area: plain generalised multidimensional scaling. Maps are
+        proposed in its metric and that of space, samples placed in it alone, and what continues them not registered.
     loss : Loss, optional
-        How the residuals of the embedding add up; least squares unless given.
+        How the residuals of the embedding add up; least squares unless given. `Minimax` is reached through powers.
     n_samples : int, optional
         Farthest points that are placed, from 3 to the number of vertices; 300 unless given.
     landmarks : array_like, pair or SoftLandmarks, optional

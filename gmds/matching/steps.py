@@ -9,13 +9,13 @@ from geodesics import Distance, Mesh
 from geodesics.threads import side_by_side
 from gmds import initialization
 from gmds.initialization.from_landmarks import landmarks as from_landmarks
-from gmds.matching.candidates import GivenDistances, MapCandidate, make_candidate
+from gmds.matching.candidates import MapCandidate, make_candidate
+from gmds.matching.given_distances import GivenDistances
 from gmds.matching.pair import SurfacePair
 from gmds.matching.polishing import polished
 from gmds.matching.proposals import Proposal, Start
 from gmds.matching.result import contenders
 from gmds.mds.losses import Loss
-from gmds.surface.measured import view_of
 from gmds.surface.view import View
 
 # Hard landmarks, and landmarks of any kind, that need no other starts: chosen on development pairs of SHREC'20
@@ -29,13 +29,16 @@ Report = Callable[[str, float], None]
 def views_of(
     pair: SurfacePair, distance: Callable[[Mesh], Distance] | None
 ) -> tuple[list[tuple[View, View]], GivenDistances | None]:
-    """Both surfaces in each metric in which maps are proposed, and the distances that are given, if any."""
+    """Both surfaces in each metric in which maps are proposed, and the distances that are given, if any.
+
+    Beside the metric of these distances that of space: where a pair is nearly isometric, it tells the map from its
+    mirror image and from halves of both, which the curvature of few surfaces does as well.
+    """
     if distance is None:
         ours, theirs = side_by_side(lambda surface: surface.views, (pair.source, pair.target))
         return list(zip(ours, theirs, strict=True)), None
-    distances = distance(pair.source.mesh), distance(pair.target.mesh)
-    views = view_of(distances[0], pair.source), view_of(distances[1], pair.target)
-    return [views], GivenDistances(views, distances)
+    given, regular = GivenDistances.of(pair.source, pair.target, distance), (pair.source.regular, pair.target.regular)
+    return [given.views, *([regular] if given.differ_from(regular) else [])], given
 
 
 def starts_of(pair: SurfacePair) -> list[Start]:

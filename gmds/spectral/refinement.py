@@ -7,10 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from geodesics import SurfacePoints
 from geodesics.arrays import Floats, Integers
 from geodesics.caching import cached_property
 from gmds.spectral.conformal_metrics import ConformalClass
-from gmds.spectral.functional_maps import nearest_rows, spectral_upsampling
+from gmds.spectral.extension import FEWEST, closest_points
+from gmds.spectral.functional_maps import functional_map, nearest_rows, spectral_upsampling
 from gmds.surface.measured import Surface
 from gmds.surface.view import View
 
@@ -27,6 +29,12 @@ LADDER = (16, 20, 24, 28, 32, 40, 50, 60)  # numbers of eigenfunctions without a
 CARRIERS = 1500
 GOALS = 2500
 PER_FUNCTION = 15  # samples that each eigenfunction is fitted to, at the least; set by hand
+# Eigenfunctions, at the most, that placed samples are continued with, samples for each of them, at the least, and the
+# weight of the map before as a share of theirs: on four development pairs a tenth keeps what samples do not cover, and
+# as much as all of it takes half of what they gain (benchmarks/results/plain.md).
+CONTINUED = 60
+PER_CONTINUED = 5
+KEPT = 0.1
 FITTED = 500  # the first samples, to which functional maps are fitted; set by hand
 
 
@@ -71,6 +79,29 @@ class Refiner:
             matrix, _ = spectral_upsampling(rows[fitted], view.functions, sent[fitted], steps, self._goals)
             sent = _images(rows, view, matrix, self._goals)
         return _images(ours.functions, view, matrix, view.usable), view
+
+    def continued(self, samples: Integers, placed: SurfacePoints, before: SurfacePoints) -> SurfacePoints:
+        """The map (n,) that continues samples (p,) placed at p points, and what was `before` (n,) where there are none.
+
+        A functional map into the metric of the target in which the map keeps area, that before to begin with and then
+        the map itself, is fitted to the placed samples and, with `KEPT` of their weight, to the whole map before. The
+        metric that they were placed in has no part in this: where it has hardly any area, its eigenfunctions cannot
+        tell points apart.
+        """
+        carriers, share = self._carriers
+        size = max(FEWEST, min(CONTINUED, len(samples) // PER_CONTINUED))
+        weight = np.sqrt(KEPT * len(samples) / len(carriers))
+        points = before
+        for _ in range(2):
+            sent = points.nearest_vertices()[carriers]
+            amounts = np.bincount(sent, share, minlength=self.target.mesh.n_vertices).astype(np.float64)
+            view = self.factors.view(self.factors.density(amounts, ROUNDS[-1][0]), size)
+            k = min(view.functions.shape[1], self.source.regular.functions.shape[1])
+            rows, there = self.source.regular.functions[:, :k], view.functions[:, :k]
+            ours = np.vstack([rows[samples], weight * rows[carriers]])
+            theirs = np.vstack([placed.interpolate(there), weight * before[carriers].interpolate(there)])
+            points = closest_points(view, there @ functional_map(ours, theirs).T, rows)
+        return points
 
 
 def upsampled(source: View, target: View, images: Integers, sizes: Sequence[int] = LADDER) -> Integers:

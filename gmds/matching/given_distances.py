@@ -1,0 +1,81 @@
+"""Plain generalised multidimensional scaling, in distances that are given: placed, continued, placed again."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from geodesics import Distance, Mesh, SurfacePoints
+from geodesics.arrays import Integers
+from gmds.matching.pair import SurfacePair
+from gmds.mds.ladder import rungs_below, solve_by_ladder
+from gmds.mds.losses import LeastSquares, Loss
+from gmds.mds.problem import Problem
+from gmds.mds.solver import Solution
+from gmds.mds.tabulated import TabulatedDistance
+from gmds.spectral.refinement import ROUNDS
+from gmds.surface.measured import Surface, view_of
+from gmds.surface.view import View
+
+# Times that samples are placed, from where the map that continues them has them: on development pairs the second time
+# lowers the error by a twentieth to a fifth, a third time does nothing (benchmarks/results/plain.md).
+TIMES = 2
+ITERATIONS = 30  # of the solver, each time; chosen with them
+SAME_MASS = 1e-3  # of the mean, by which the masses of two metrics differ at most that are one but for size: a bound
+
+
+class GivenDistances(NamedTuple):
+    """Distances on source and target that a user gave, and both surfaces in their metrics."""
+
+    views: tuple[View, View]
+    distances: tuple[Distance, Distance]
+
+    @classmethod
+    def of(cls, source: Surface, target: Surface, distance: Callable[[Mesh], Distance]) -> GivenDistances:
+        """What `distance` makes of both; what is neither an embedding nor says how pairs are measured is tabulated."""
+        made = distance(source.mesh), distance(target.mesh)
+        views = view_of(made[0], source), view_of(made[1], target)
+        return cls(views, (_quick(made[0]), _quick(made[1])))
+
+    def differ_from(self, others: tuple[View, View]) -> bool:
+        """Whether the metrics are others than those of these views, up to size."""
+        gaps = [abs(one.spectrum.mass - other.spectrum.mass) for one, other in zip(self.views, others, strict=True)]
+        return any(len(gap) * gap.max() > SAME_MASS for gap in gaps)  # masses of a view sum to 1
+
+
+def _quick(distance: Distance) -> Distance:
+    """The distance, if it has coordinates or measures pairs itself, else tabulated."""
+    if hasattr(distance, "embedding") or hasattr(distance, "pairs"):
+        return distance
+    return TabulatedDistance(distance)
+
+
+def placed_in_given(
+    pair: SurfacePair, images: Integers, given: GivenDistances, loss: Loss, count: int
+) -> tuple[SurfacePoints, Solution]:
+    """The map `images` (n,) after generalised multidimensional scaling in the given distances, without registration.
+
+    It is first refined in the metric in which it keeps area. Then `count` farthest points, in turn of the given metric
+    and of space, are placed so that the given distances agree, and the map is continued from them; that is done `TIMES`
+    times, each from where the last left off, as what is smooth leaves minima that are not. A loss that is sharp at its
+    minimum has its say the last time only, after the smoother ones below it.
+    """
+    images, _ = pair.refiner.aligned(images, range(len(ROUNDS)))
+    points = SurfacePoints.at_vertices(pair.target.mesh, images)
+    samples = _interleaved(given.views[0].samples(count), pair.source.regular.samples(count))
+    here = SurfacePoints.at_vertices(pair.source.mesh, samples)
+    problem = Problem(given.distances[0], here, given.distances[1])
+    for time in range(TIMES):
+        now = LeastSquares() if rungs_below(loss) and time < TIMES - 1 else loss
+        solution = solve_by_ladder(problem, points[samples], now, max_iterations=ITERATIONS)
+        points = pair.refiner.continued(*pair.with_landmarks(samples, solution.points), points)
+    return points, solution
+
+
+def _interleaved(first: Integers, second: Integers) -> Integers:
+    """As many samples as the first has, in turn of either, none twice: farthest points of two metrics."""
+    both = np.stack([first, second[: len(first)]], axis=1).ravel()
+    _, place = np.unique(both, return_index=True)
+    return both[np.sort(place)][: len(first)]

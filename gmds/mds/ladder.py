@@ -1,0 +1,58 @@
+"""Losses that are sharp at their minimum, reached through smooth ones."""
+
+from __future__ import annotations
+
+from geodesics import SurfacePoints
+from gmds.mds.losses import LeastSquares, Loss, Minimax, Power
+from gmds.mds.problem import Problem
+from gmds.mds.solver import Solution, solve
+
+EXPONENTS = (4.0, 8.0, 16.0, 32.0)
+"""On the way from least squares to the maximum: each doubles, so that no residual gains much on another at once."""
+STEPS = 10  # of each exponent, at the most: a bound, the next one goes on from there
+
+
+def solve_by_ladder(
+    problem: Problem, start: SurfacePoints, loss: Loss, *, max_iterations: int = 50, tolerance: float = 1e-3
+) -> Solution:
+    r"""As `solve`, but a maximum, or a high power, is approached through lower powers of the residuals.
+
+    .. math:: p = 2, 4, 8, 16, 32, \infty
+
+    Far from its minimum the maximum is decided by a single pair, and the linear program moves the few samples that
+    matter to it until the next pair is as bad; least squares moves all of them, and each power attends to fewer pairs.
+
+    Parameters
+    ----------
+    problem, start, max_iterations, tolerance
+        As of `solve`; the iterations are those of the first and of the last loss.
+    loss : Loss
+        `Minimax`, or a `Power` above 2, goes up the ladder; any other is left to `solve`.
+
+    Returns
+    -------
+    Solution
+        Of the loss itself, with its certificate.
+
+    See Also
+    --------
+    solve : One loss alone.
+
+    References
+    ----------
+    Sec. 5 of Aflalo, Kimmel, Raviv (2013), for the maximum; Lp norms on the way to it: Bronstein, Bronstein, Kimmel:
+    Generalized multidimensional scaling (2006).
+    """
+    rungs = rungs_below(loss)
+    if rungs:
+        below = solve(problem, start, LeastSquares(), max_iterations=max_iterations, tolerance=tolerance)
+        start = below.points
+        for exponent in rungs:
+            start = solve(problem, start, Power(exponent), max_iterations=STEPS, tolerance=tolerance).points
+    return solve(problem, start, loss, max_iterations=max_iterations, tolerance=tolerance)
+
+
+def rungs_below(loss: Loss) -> list[float]:
+    """The exponents on the way from least squares to a loss; none where there is no way to go."""
+    most = loss.exponent if isinstance(loss, Power) else float("inf") if isinstance(loss, Minimax) else 0.0
+    return [exponent for exponent in EXPONENTS if exponent < most]

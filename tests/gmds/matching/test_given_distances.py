@@ -1,0 +1,66 @@
+"""Plain generalised multidimensional scaling: what is proposed, tabulated, placed and continued."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from matched_shapes import animal, bumpy, surface
+
+import gmds
+from geodesics import CommuteTimeDistance, Distance, GeodesicDistance, Mesh, SurfacePoints, eigenpairs, scale_invariant
+from gmds.matching.given_distances import GivenDistances, placed_in_given
+from gmds.matching.pair import SurfacePair
+from gmds.matching.steps import views_of
+from gmds.mds.losses import Huber, LeastSquares, Loss, Minimax
+from gmds.shapes import truth
+from gmds.spectral.refinement import Refiner
+
+
+def invariant(mesh: Mesh) -> Distance:
+    return CommuteTimeDistance(eigenpairs(scale_invariant(mesh, smoothing=0.02), 60))
+
+
+def marched(mesh: Mesh) -> Distance:
+    return GeodesicDistance(scale_invariant(mesh, exponent=0.5, smoothing=0.02))
+
+
+def test_maps_are_proposed_in_the_metric_given_and_in_that_of_space() -> None:
+    pair = SurfacePair(surface(bumpy()), surface(bumpy()))
+    views, given = views_of(pair, invariant)
+    assert given is not None and views == [given.views, (pair.source.regular, pair.target.regular)]
+    views, given = views_of(pair, lambda mesh: CommuteTimeDistance(eigenpairs(mesh, 60)))
+    assert given is not None and views == [given.views]  # that is the metric of space already
+
+
+def test_what_has_no_coordinates_is_tabulated() -> None:
+    mine = surface(bumpy())
+    assert all(isinstance(one, gmds.TabulatedDistance) for one in GivenDistances.of(mine, mine, marched).distances)
+    assert all(isinstance(one, CommuteTimeDistance) for one in GivenDistances.of(mine, mine, invariant).distances)
+
+
+def test_what_is_placed_right_stays_and_is_continued() -> None:
+    mine, same = surface(animal()), np.arange(animal().n_vertices)
+    here = SurfacePoints.at_vertices(mine.mesh, same)
+    samples = mine.regular.samples(200)
+    points = Refiner(mine, mine).continued(samples, here[samples], here)
+    assert np.linalg.norm(points.positions - mine.mesh.vertices, axis=1).mean() < 0.02
+    assert np.linalg.norm(points.positions - mine.mesh.vertices, axis=1).max() < 0.15
+
+
+@pytest.mark.parametrize("loss", [LeastSquares(), Huber(), Minimax()], ids=repr)
+@pytest.mark.parametrize("distance", [invariant, marched], ids=lambda f: f.__name__)
+def test_a_rough_map_is_improved_by_every_loss_in_every_distance(distance: Callable, loss: Loss) -> None:
+    source, target = animal(), animal("walk", seed=1)
+    true = truth(source, target)
+    mine, other = surface(source), surface(target)
+    pair = SurfacePair(mine, other)
+    shaken = true.positions + np.random.default_rng(1).normal(0, 0.15, (len(true), 3))
+    rough = SurfacePoints.closest(target, shaken).nearest_vertices()
+    given = GivenDistances.of(mine, other, distance)
+    points, solution = placed_in_given(pair, rough, given, loss, 100)
+    before = gmds.geodesic_error(SurfacePoints.at_vertices(target, rough), true).mean()
+    after = gmds.geodesic_error(SurfacePoints(target, other.face_index[points.face], points.barycentric), true).mean()
+    assert after < 0.5 * before
+    assert len(solution.points) == 100 and np.isfinite(solution.stress)
