@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from gmds.maps.point_map import MatchStatus as MatchStatus
     from gmds.matching.pipeline import match as match
     from gmds.matching.symmetry import self_symmetry as self_symmetry
+    from gmds.mds.ladder import solve_by_ladder as solve_by_ladder
     from gmds.mds.losses import Huber as Huber
     from gmds.mds.losses import LeastSquares as LeastSquares
     from gmds.mds.losses import Minimax as Minimax
@@ -113,6 +114,7 @@ _NAMES = {
     ),
     "matching.pipeline": ("match",),
     "matching.symmetry": ("self_symmetry",),
+    "mds.ladder": ("solve_by_ladder",),
     "mds.losses": (
         "Huber",
         "LeastSquares",
