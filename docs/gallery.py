@@ -207,7 +207,7 @@ def draw(name: str, folder: Path) -> Path:
     script = ROOT / "examples" / f"{name}.py"
     picture = folder.resolve() / f"{script.stem}.png"
     with tempfile.TemporaryDirectory() as empty, contextlib.chdir(empty), contextlib.redirect_stdout(io.StringIO()):
-        sys.argv, path = [script.name, "-o", "morphometrics"], list(sys.path)
+        sys.argv, path = [script.name, "morphometrics"], list(sys.path)
         sys.path.insert(0, str(script.parent))
         try:
             DRAWN[name](picture, runpy.run_path(str(script), run_name="__main__"))

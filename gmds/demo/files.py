@@ -62,7 +62,8 @@ def _write_pair(folder: Path, n: int) -> Pair:
 def _write_landmarks(folder: Path, pair: Pair) -> None:
     from gmds.landmarks.files import Landmarks, write_landmarks
 
-    names, at = ("nose", "tail", "paw"), [int(pair.dog.vertices[:, i].argmax()) for i in (0, 1, 2)]
+    x, y, z = pair.dog.vertices.T
+    names, at = ("nose", "tail", "paw"), [int(row) for row in (x.argmax(), x.argmin(), (x + y - 4 * z).argmax())]
     for name in ("dog.csv", "dog.mrk.json"):
         write_landmarks(folder / name, Landmarks(names, pair.dog.vertices[at]))
     for name in ("wolf.csv", "known-wolf.csv", "wolf.fcsv"):

@@ -68,6 +68,11 @@ function showBeside(page) {
   } else if (!map) page.scenes.length = 2;
   if (map) at("beside-name").textContent = map.name;
   page.scenes.forEach((scene) => scene.resized());
+  if (page.panels && page.panels !== page.scenes.length) { // narrower or wider panels: all is to be seen again
+    const near = fitted(page.scenes, page.scenes[0].camera);
+    page.scenes.forEach((scene) => scene.look(near));
+  }
+  page.panels = page.scenes.length;
   options(page);
   page.show();
 }
@@ -138,6 +143,7 @@ async function start() {
   const first = fitted(page.scenes, FIRST);
   page.scenes.forEach((scene, panel) => { scene.camera = first; scene.shown = null; point(page, scene, panel); });
   if (location.hash.length > 1) restore(page, location.hash.slice(1));
+  page.panels = at("beside").value === "" ? 2 : 3;
   showBeside(page);
   if (page.data.work) page.work = new Work(page);
   page.scenes.forEach((scene) => scene.drawNow());

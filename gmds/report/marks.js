@@ -51,6 +51,7 @@ class Marks {
       dot.style.display = position && page.scenes[panel] ? "" : "none";
       if (dot.style.display) return;
       const place = this.place(panel, position);
+      if (!place.inside) dot.style.display = "none";
       dot.setAttribute("transform", `translate(${place.x} ${place.y})`);
       dot.classList.toggle("hidden", place.hidden);
       dot.classList.toggle("partner", kind === "partner");
@@ -74,6 +75,7 @@ class Marks {
       const ends = [[pin.side, page.scenes[pin.side].vertex(pin.vertex)], [1 - pin.side, partner && partner.position]];
       return ends.filter(([, position]) => position).map(([side, position]) => {
         const place = this.place(side, position, `pin ${i} ${side} ${pin.vertex}`);
+      if (!place.inside) return "";
         return svg("g", { class: `pin${place.hidden ? " hidden" : ""}`, transform: `translate(${place.x} ${place.y})` },
           svg("circle", { r: 9 }), svg("text", { y: 4, "text-anchor": "middle" }, String(i + 1)));
       });
@@ -85,6 +87,7 @@ class Marks {
     const shown = at("named").checked && !Number(at("morph").value) ? page.landmarks : [];
     at("labels").replaceChildren(...shown.flatMap((mark, i) => [0, 1].filter((side) => mark.at[side]).map((side) => {
       const place = this.place(side, mark.at[side], `mark ${side} ${mark.at[side]}`);
+      if (!place.inside) return "";
       const kind = `label${place.hidden ? " hidden" : ""}${mark.at[1 - side] ? "" : " alone"}${i === page.chosenLandmark ? " chosen" : ""}`;
       return svg("g", { class: kind, transform: `translate(${place.x} ${place.y})`, "data-landmark": i, "data-panel": side },
         svg("path", { d: "M0 -6 L6 0 L0 6 L-6 0 Z" }), svg("text", { x: 9, y: 4 }, mark.name));

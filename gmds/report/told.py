@@ -95,7 +95,7 @@ def _of_best(answer: PointMap, errors: Floats | None) -> Told:
         found.append((str(len(answer.candidates)), "other maps to compare"))
     found += [(value, name) for name, value in _judged(errors)[:2]]
     status = answer.status
-    return Told(*VERDICTS[status], status.value, NEXT[status], found, facts(answer, errors))
+    return Told(*VERDICTS[status], status.value.replace("`", ""), NEXT[status], found, facts(answer, errors))
 
 
 def _of_candidate(answer: PointMap, one: Candidate, errors: Floats | None) -> Told:

@@ -11,6 +11,8 @@ from gmds.cli.group import Command
 from gmds.cli.landmark_options import check_on, landmarks_of, space_option, specimen_option
 from gmds.cli.matching_options import orientation_option
 from gmds.cli.output import emit, json_option, known, note, progress_bar, seed_option
+from gmds.cli.paths import OutputFile
+from gmds.cli.view_options import up_option
 
 if TYPE_CHECKING:
     from geodesics import Mesh
@@ -18,39 +20,40 @@ if TYPE_CHECKING:
     from gmds.landmarks.transfer import CarriedLandmarks
     from gmds.matching.attempts import Orientation
 
-from gmds.cli.paths import OutputFile
-
 FILE = click.Path(path_type=Path)
+
+
+class FileOrFolder(OutputFile):
+    """A file that can be written, or a folder, which is made when it is needed."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The path; a file is checked as any other."""
+        path = Path(value)
+        return path if path.is_dir() or not path.suffix else super().convert(value, param, ctx)
 
 
 @click.command(cls=Command, short_help="Carry landmarks from one mesh to another.")
 @click.argument("source", type=FILE)
-@click.argument("landmarks", type=FILE)
-@click.argument("target", type=FILE)
-@click.option("-o", "--output", required=True, type=OutputFile(), help="Where the landmarks of TARGET go; see above.")
+@click.argument("landmarks", type=FILE, required=False)
+@click.argument("target", type=FILE, required=False)
+@click.option("-o", "--output", required=True, type=FileOrFolder(), help="Where the landmarks go; see above.")
+@click.option("--template", type=FILE, help="The mesh that has landmarks, when SOURCE is a folder of specimens.")
+@click.option("--landmarks", "template_landmarks", type=FILE, help="The landmarks of the template.")
+@click.option("--workers", type=click.IntRange(min=1), help="Processes for a folder.  [default: one a processor]")
+@up_option
 @click.option("--map", "map_file", type=FILE, help="A map from SOURCE to TARGET; without it they are matched.")
 @space_option
 @specimen_option
 @orientation_option
 @seed_option
 @json_option
-def command(
-    source: Path,
-    landmarks: Path,
-    target: Path,
-    output: Path,
-    map_file: Path | None,
-    space: Any,
-    specimen: str | None,
-    orientation: Orientation,
-    seed: int,
-    as_json: bool,
-) -> None:
+def command(source: Path, landmarks: Path | None, target: Path | None, output: Path, **options: Any) -> None:
     """Match SOURCE to TARGET and find for every landmark of SOURCE its place on TARGET.
 
     \b
       gmds landmarks dog.ply dog.mrk.json wolf.off -o wolf.mrk.json
       gmds landmarks dog.ply dog.csv wolf.off -o wolf.csv --map map.npz
+      gmds landmarks meshes --template dog.ply --landmarks dog.csv -o specimens --workers 1
 
     \b
     Landmark files, by their endings; the last line is read only:
@@ -73,16 +76,41 @@ def command(
 
     Landmarks without a counterpart, or without a place on SOURCE, keep their places in the list: missing or undefined
     in .mrk.json, NA in .csv, .tps, .pts and .vts, not active in .pp; a .fcsv cannot say so, they are left out.
+
+    \b
+    With --template and --landmarks, SOURCE is a folder of specimens, and -o a folder that gets
+      landmarks.csv, landmarks_wide.csv  positions: a row a landmark, with its confidence; a row a specimen
+      landmarks.tps                      the same, a block a specimen
+      shapes.csv, shapes_wide.csv        superimposed (generalised Procrustes), sizes, distances from the mean shape
+      to_look_at.csv                     who needs a look, and why
+      sheet.png, pictures/               all specimens with their landmarks; doubtful ones are red
+      maps/                              the maps, as `gmds batch` writes them: what is there is not made again
+    The template is the first in every table. A specimen that cannot be used is named and left out; the exit code is 3.
     """
+    given, template = options.pop("template_landmarks"), options.pop("template")
+    if template is not None:
+        if given is None or landmarks is not None or options["map_file"] is not None:
+            raise click.UsageError("a folder takes --template and --landmarks, and nothing else beside -o")
+        from gmds.cli.landmark_collection import landmark_collection
+
+        return landmark_collection(source, template, given, output, **options)
+    if landmarks is None or target is None:
+        raise click.UsageError("give SOURCE, LANDMARKS and TARGET; or a folder, --template and --landmarks")
+    _one(source, landmarks, target, output, options)
+
+
+def _one(source: Path, landmarks: Path, target: Path, output: Path, options: dict[str, Any]) -> None:
+    """The landmarks of one mesh on another."""
     from geodesics import read_mesh
     from gmds.landmarks.files import ending, write_landmarks
     from gmds.landmarks.transfer import carry_landmarks
 
     as_vertices = ending(output) == ".vts"  # before the matching: a wrong ending should not cost minutes
     meshes = read_mesh(source), read_mesh(target)
-    marks = landmarks_of(landmarks, space, meshes[0], source, specimen)
+    space, as_json = options["space"], options["as_json"]
+    marks = landmarks_of(landmarks, space, meshes[0], source, options["specimen"])
     check_on(marks, meshes[0], "source")  # likewise
-    answer = _map(*meshes, map_file, orientation, seed)
+    answer = _map(*meshes, options["map_file"], options["orientation"], options["seed"])
     carried = carry_landmarks(answer, marks)
     columns = {
         "confidence": ["NA" if value is None else round(value, 4) for value in known(carried.confidence)],

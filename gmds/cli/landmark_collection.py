@@ -1,0 +1,61 @@
+"""Landmarks of a template on a folder of specimens, as `gmds landmarks` does it."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import click
+
+from gmds.cli.group import UNFINISHED
+from gmds.cli.landmark_options import landmarks_of
+from gmds.cli.output import emit, note, progress_bar
+from gmds.cli.view_options import upwards
+
+
+def landmark_collection(folder: Path, template: Path, landmarks: Path, output: Path, **options: Any) -> None:
+    """Carry the landmarks, write tables and pictures, tell what needs a look; exit code 3 where a specimen failed."""
+    from geodesics import read_mesh
+    from gmds.batch import local_client, quiet
+    from gmds.specimens.carried import landmark_folder
+    from gmds.specimens.drawing import figure_class, write_pictures
+    from gmds.specimens.tables import write_tables
+
+    figure_class()  # before hours of work
+    marks = landmarks_of(landmarks, options["space"], read_mesh(template), template, options["specimen"])
+    asked = {"orientation": options["orientation"], "rng": options["seed"]}
+    quiet()
+    output.mkdir(parents=True, exist_ok=True)
+    with progress_bar("landmarks", remaining=True) as shown:
+        told = shown if sys.stderr.isatty() else _lines()
+        client = local_client(options["workers"])
+        found = landmark_folder(folder, template, marks, output / "maps", client=client, progress=told, **asked)
+    to_look_at = write_tables(output, found)
+    write_pictures(output, found, upwards(options["up"], template.name))
+    for name, why in to_look_at:
+        note(f"needs a look: {name}: {why}")
+    result = {
+        "folder": str(output),
+        "specimens": len(found.specimens) - 1,
+        "landmarks": len(marks),
+        "doubtful": int(sum(one.doubtful.sum() for one in found.specimens[1:])),
+        "to_look_at": sorted({name for name, _ in to_look_at}),
+        "left_out": sorted(found.failures),
+    }
+    emit(result, options["as_json"])
+    if found.failures:
+        raise click.exceptions.Exit(UNFINISHED)
+
+
+def _lines() -> Callable[[str, float], None]:
+    """Progress as a line for every thing that is done, where stderr is no terminal."""
+    last = [""]
+
+    def tell(stage: str, fraction: float) -> None:
+        if stage != last[0]:
+            last[0] = stage
+            note(f"{stage} ({100 * fraction:.0f} %)")
+
+    return tell
