@@ -8,6 +8,7 @@ PACKAGES = {
     "repair": ("pymeshlab>=2023.12",),
     "batch": ("distributed>=2024.1",),
     "neuro": ("nibabel>=5.2",),
+    "notebook": ("anywidget>=0.9",),
 }
 
 

@@ -38,6 +38,7 @@ EXTRAS = {
     "repair": (PACKAGES["repair"], "closing holes and remeshing in `gmds repair`"),
     "batch": (PACKAGES["batch"], "`gmds batch`"),
     "neuro": (PACKAGES["neuro"], "GIFTI and FreeSurfer surfaces"),
+    "notebook": (PACKAGES["notebook"], "maps to turn in a notebook"),
 }
 MODULES = {"libigl": "igl", "tomli-w": "tomli_w", "pillow": "PIL"}  # modules that are not called as their package
 PATIENCE = 120  # seconds that an import may take: a bound

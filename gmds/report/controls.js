@@ -118,7 +118,7 @@ function choose(page) {
   at("drop-pins").addEventListener("click", () => page.pin(null));
   at("save-view").addEventListener("click", async () => offer(await viewPicture(page), "view.png"));
   at("copy-link").addEventListener("click", async () => {
-    history.replaceState(null, "", `#${stateOf(page)}`);
+    remember(page);
     await navigator.clipboard.writeText(location.href).catch(() => {});
   });
   document.addEventListener("keydown", (event) => { if (event.key === "Escape" && !(page.work && page.work.escaped())) page.pin(null); });
@@ -148,7 +148,7 @@ async function start() {
   if (page.data.work) page.work = new Work(page);
   page.scenes.forEach((scene) => scene.drawNow());
   let writing = 0;
-  page.changed = () => { clearTimeout(writing); writing = setTimeout(() => history.replaceState(null, "", `#${stateOf(page)}`), 400); };
+  page.changed = () => { clearTimeout(writing); writing = setTimeout(() => remember(page), 400); };
   document.body.dataset.ready = "yes";
 }
 

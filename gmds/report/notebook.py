@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import contextlib
 import html
+from typing import Any
 
 from gmds.maps.point_map import PointMap
 from gmds.pictures.figure import composed, encoded
@@ -12,16 +13,22 @@ from gmds.pictures.panels import map_panels
 from gmds.pictures.software import software
 from gmds.report.tables import table_rows
 from gmds.report.told import facts
+from gmds.report.widget import widget
 
 PIXELS = 260  # across each view, so that three of them fit into a cell; set by hand
 MOST_FACES = 200_000  # faces of both surfaces, above which there is no picture: 3 s at 160,000, measured
 
 
-def mimebundle(answer: PointMap) -> dict[str, str]:
-    """The map as plain text, and as HTML: a table with a picture above it if one can be drawn soon. Never raises."""
-    bundle = {"text/plain": repr(answer)}
+def mimebundle(answer: PointMap) -> dict[str, Any]:
+    """The map as plain text, as HTML (a table, and a picture if one can be drawn soon), and as a widget. Never raises.
+
+    The widget is the page of the map, where anywidget is installed; a notebook shows the best that it can.
+    """
+    bundle: dict[str, Any] = {"text/plain": repr(answer)}
     with contextlib.suppress(Exception):  # a cell that shows a map must not fail because of how it looks
         bundle["text/html"] = f"<div>{_picture(answer)}{_table(answer)}</div>"
+        if _is_small(answer) and (view := widget(answer)) is not None:
+            bundle.update({kind: shown for kind, shown in view._repr_mimebundle_()[0].items() if kind not in bundle})
     return bundle
 
 

@@ -50,6 +50,13 @@ function stateOf(page) {
   return state.toString();
 }
 
+// in the address, where that is allowed: not in a frame of a notebook
+function remember(page) {
+  try {
+    history.replaceState(null, "", `#${stateOf(page)}`);
+  } catch { /* the view is as it was */ }
+}
+
 function restore(page, text) {
   const state = new URLSearchParams(text);
   const number = (value, low, high) => (Number.isFinite(Number(value)) ? Math.min(Math.max(Number(value), low), high) : low);

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import base64
+import json
 import re
+import sys
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -11,6 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 from generated_shapes import icosphere, tetrahedron
+from pages import browser
 
 import gmds.pictures.panels
 import gmds.report.notebook
@@ -77,3 +80,30 @@ def test_a_notebook_runs_and_shows_the_map(tmp_path: Path) -> None:
     shown = book.cells[0].outputs[0]["data"]
     assert "300, 100.0 %" in shown["text/html"] and "data:image/png" in shown["text/html"]
     assert shown["text/plain"].startswith("Correspondence(300 -> 300 vertices")
+
+
+def test_with_anywidget_a_map_is_the_page(tmp_path: Path) -> None:
+    """In a browser, in the frame that the widget makes: it is drawn, and cannot reach what is around it."""
+    pytest.importorskip("anywidget")
+    answer = identity()
+    bundle = answer._repr_mimebundle_()
+    assert "application/vnd.jupyter.widget-view+json" in bundle and "<img" in bundle["text/html"]
+    view = gmds.report.notebook.widget(answer)
+    script = (
+        str(view._esm).replace("export default", "const shown =")
+        + f"const state = {json.dumps({'page': view.page, 'height': 500})};".replace("</", "<\\/")
+        + "shown.render({ model: { get: (name) => state[name] }, el: document.body });"
+    )
+    (tmp_path / "cell.html").write_text(f"<!DOCTYPE html><body><script>{script}</script></body>", encoding="utf-8")
+    with browser() as running:
+        page = running.new_page()
+        page.goto((tmp_path / "cell.html").as_uri())
+        frame = page.frame_locator("iframe")
+        frame.locator("body[data-ready=yes]").wait_for(timeout=60_000)
+        assert frame.locator("#cards").inner_text().startswith("100.0 %")
+        assert page.evaluate("document.querySelector('iframe').contentDocument") is None
+
+
+def test_without_anywidget_it_is_a_picture(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "anywidget", None)
+    assert set(identity()._repr_mimebundle_()) == {"text/plain", "text/html"}
