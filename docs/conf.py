@@ -41,13 +41,15 @@ import gmds  # noqa: E402
 GENERATED = {
     "docs/reference/command-line": generated.every_command,
     "docs/reference/errors": generated.every_code,
+    "docs/reference/gmds": lambda: generated.summary_of("gmds"),
+    "docs/reference/geodesics": lambda: generated.summary_of("geodesics"),
 }
 
 project = "gmds"
 author = copyright = "the gmds developers"
 release = version = gmds.__version__
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_copybutton"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.viewcode", "sphinx_copybutton"]
 root_doc = "docs/index"
 include_patterns = [
     "README.md",

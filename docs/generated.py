@@ -5,7 +5,9 @@ from __future__ import annotations
 import importlib
 import inspect
 import pkgutil
+import re
 from collections.abc import Iterator
+from pathlib import Path
 
 import click
 
@@ -35,6 +37,26 @@ def every_command() -> str:
             )
             text += f"\n### gmds {name}\n\n```text\n{click.unstyle(context.get_help())}\n```\n"
     return text
+
+
+def summary_of(package: str) -> str:
+    """The pages of a package's reference, each with a table of what is on it: a name, and its first sentence."""
+    here, text = Path(__file__).parent / "reference", ""
+    pages = re.findall(rf"^{package}/([\w-]+)$", (here / f"{package}.md").read_text(encoding="utf-8"), re.MULTILINE)
+    for page in pages:
+        source = (here / package / f"{page}.md").read_text(encoding="utf-8")
+        title = source.splitlines()[0].removeprefix("# ")
+        text += f"\n## [{title}]({package}/{page}.md)\n\n| name | what it is |\n|---|---|\n"
+        for kind, name in re.findall(r"^\.\. auto(function|class|module):: ([\w.]+)$", source, re.MULTILINE):
+            role = {"function": "func", "class": "class", "module": "mod"}[kind]
+            first = re.sub(r"\s+", " ", (pkgutil.resolve_name(name).__doc__ or "").split("\n\n")[0])
+            text += f"| {{py:{role}}}`{name}` | {_in_a_cell(first)} |\n"
+    return text
+
+
+def _in_a_cell(sentence: str) -> str:
+    """A sentence of a docstring in a table of Markdown."""
+    return re.sub(r":\w+:`([^`]*)`", r"`\1`", sentence).replace("|", "\\|").replace("*", "\\*")
 
 
 def error_codes() -> Iterator[tuple[str, type[Exception]]]:

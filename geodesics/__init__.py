@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from geodesics.diffusion import CommuteTimeDistance as CommuteTimeDistance
     from geodesics.diffusion import DiffusionDistance as DiffusionDistance
     from geodesics.distance import Distance as Distance
-    from geodesics.distance_matrix import distance_matrix as distance_matrix
     from geodesics.errors import FormatError as FormatError
     from geodesics.errors import MeshError as MeshError
     from geodesics.errors import Note as Note
@@ -32,6 +31,7 @@ if TYPE_CHECKING:
     from geodesics.laplacian import galerkin_mass as galerkin_mass
     from geodesics.laplacian import lumped_mass as lumped_mass
     from geodesics.laplacian import stiffness as stiffness
+    from geodesics.matrices import distance_matrix as distance_matrix
     from geodesics.mesh import Mesh as Mesh
     from geodesics.mesh import triangulate as triangulate
     from geodesics.metric import Metric as Metric
@@ -70,7 +70,7 @@ _NAMES = {
         "DiffusionDistance",
     ),
     "distance": ("Distance",),
-    "distance_matrix": ("distance_matrix",),
+    "matrices": ("distance_matrix",),
     "errors": (
         "FormatError",
         "MeshError",

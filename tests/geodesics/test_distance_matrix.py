@@ -60,3 +60,16 @@ def test_components_are_infinitely_far_apart(kind: Any) -> None:
 def test_a_mesh_is_no_distance() -> None:
     with pytest.raises(TypeError, match="a distance is expected, not Mesh"):
         distance_matrix(MESH, [0])  # type: ignore[arg-type]
+
+
+def test_no_module_hides_a_public_name() -> None:
+    """A module of the name of a function would take its place once anybody imported it."""
+    import importlib.util
+
+    import geodesics
+    import gmds
+
+    for package in (geodesics, gmds):
+        for name in package.__all__:
+            hidden = importlib.util.find_spec(f"{package.__name__}.{name}")
+            assert hidden is None, f"{package.__name__}.{name}"
