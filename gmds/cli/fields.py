@@ -58,10 +58,20 @@ def write_field(path: Path, arrays: Mapping[str, NDArray[Any]], columns: Mapping
             np.save(stream, next(iter(arrays.values())), allow_pickle=False)
 
 
-def draw(path: Path | None, surfaces: list[tuple[str, Mesh, NDArray[np.generic]]], *, labels: bool = False) -> None:
-    """The picture of (caption, mesh, values) that was asked for, named on stderr once it is written."""
+def draw(
+    path: Path | None,
+    surfaces: list[tuple[str, Mesh, NDArray[np.generic]]],
+    *,
+    labels: bool = False,
+    marked: NDArray[np.generic] | None = None,
+) -> None:
+    """The picture of (caption, mesh, values) that was asked for, named on stderr once it is written.
+
+    `marked`: vertices that get a little ball, on each.
+    """
     if path is None:
         return
     from gmds.pictures.panels import write_values
 
-    tell_written(path, write_values(path, surfaces, labels=labels))
+    balls = None if marked is None else [marked] * len(surfaces)
+    tell_written(path, write_values(path, surfaces, labels=labels, marked=balls))

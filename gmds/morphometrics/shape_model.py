@@ -57,7 +57,7 @@ class ShapeModel:
 
     @classmethod
     def from_atlas(cls, atlas: Registered, n_components: int | None = None, *, scale: bool = True) -> ShapeModel:
-        """The model of an atlas, or of anything with `configurations` (k, n, 3), `faces`, `valid` and `names`."""
+        """The model of an atlas, or of anything with `configurations` (k, n, 3), `faces`, `valid` and names."""
         model = cls(n_components, scale=scale)
         model.fit(atlas.configurations, valid=atlas.valid)
         model.faces_, model.names_ = atlas.faces, tuple(atlas.names)

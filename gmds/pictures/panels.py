@@ -11,28 +11,27 @@ from numpy.typing import ArrayLike
 
 from geodesics import Mesh
 from geodesics.arrays import Floats
-from geodesics.errors import BadArgument
 from geodesics.io import atomic_write
 from gmds.errors import PictureFormat, RenderingError
-from gmds.maps.growth import growth_of
 from gmds.maps.overlap import covered_of
 from gmds.maps.point_map import PointMap
+from gmds.pictures.balls import with_balls
 from gmds.pictures.camera import Direction, alignment, broadside
 from gmds.pictures.colours import (
     MISSING,
     label_colours,
-    nearest_known,
     per_vertex,
     position_colours,
-    shown_range,
-    symmetric_reach,
     value_colours,
 )
 from gmds.pictures.figure import FORMATS, Panel, composed, encoded
+from gmds.pictures.judgement import judgement
 from gmds.pictures.offscreen import offscreen
 from gmds.pictures.software import Shot, software
 
 Renderer = Callable[[Sequence[Shot]], list[Floats]]
+
+INK = (0.85, 0.10, 0.10)  # sRGB, red: of vertices that are marked; no colour of values is like it
 
 
 def write_picture(  # noqa: PLR0913 - as much as there is to choose
@@ -116,27 +115,11 @@ def map_panels(
         Panel(names[0], Shot(answer.source, pulled, view, pixels)),
         Panel(names[1], Shot(answer.target, colours, view @ alignment(answer), pixels)),
     ]
-    caption, values, limits = _judgement(answer, errors, show)
+    caption, values, limits = judgement(answer, errors, show)
     if errors is not None or values.any():
         shown = value_colours(np.where(answer.valid, values, np.nan), *limits)
         panels.append(Panel(caption, Shot(answer.source, shown, view, pixels), limits))
     return panels
-
-
-def _judgement(answer: PointMap, errors: ArrayLike | None, show: str) -> tuple[str, Floats, tuple[float, float]]:
-    """What the third view shows of the map, what it is called, and the range."""
-    if show not in ("doubt", "growth"):
-        raise BadArgument(f"a picture shows doubt or growth, not {show!r}")
-    if errors is not None:
-        values = nearest_known(answer.source, errors)
-        return "error", values, shown_range(values)
-    if show == "growth":
-        values = growth_of(answer).relative
-        reach = symmetric_reach(values)
-        return "growth: log of length", values, (-reach, reach)
-    if np.isnan(answer.confidence).all():
-        return "distortion", answer.distortion, shown_range(answer.distortion)
-    return "doubt", 1 - answer.confidence, (0.0, 1.0)
 
 
 def write_values(
@@ -144,6 +127,7 @@ def write_values(
     surfaces: Sequence[tuple[str, Mesh, ArrayLike]],
     *,
     labels: bool = False,
+    marked: Sequence[ArrayLike] | None = None,
     title: str = "",
     up: Direction = (0, 0, 1),
     pixels: int = 520,
@@ -159,6 +143,8 @@ def write_values(
         Captions, and what is drawn, with a value for each vertex, all in one range of colours; grey is not finite.
     labels : bool
         Values are whole numbers with a colour each, negative ones grey.
+    marked : sequence of array_like of int, optional
+        Vertices of each surface that get a little ball: sources of a distance, samples.
 
     Returns
     -------
@@ -174,9 +160,11 @@ def write_values(
     finite = everything[np.isfinite(everything)]
     limits = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 1.0)
     panels: list[Panel] = []
-    for caption, mesh, values in surfaces:
+    for i, (caption, mesh, values) in enumerate(surfaces):
         colours = label_colours(values) if labels else value_colours(values, *limits)
-        shot = Shot(mesh, colours, broadside(mesh, up), pixels, sharp=labels)
+        rows = np.asarray(marked[i] if marked is not None else (), dtype=np.int64)
+        shape, colours = with_balls(mesh, colours, mesh.vertices[rows], np.array(INK)) if len(rows) else (mesh, colours)
+        shot = Shot(shape, colours, broadside(mesh, up), pixels, sharp=labels)
         panels.append(Panel(caption, shot, None if labels else limits))
     return _write(path, panels, title, renderer)
 

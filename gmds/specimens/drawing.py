@@ -8,17 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from geodesics import Mesh
 from geodesics.arrays import Bools, Floats
 from geodesics.errors import MissingExtra
 from geodesics.extras import how_to_install
 from geodesics.io import atomic_write
+from gmds.pictures.balls import with_balls
 from gmds.pictures.camera import Direction, broadside
 from gmds.pictures.software import render
 from gmds.specimens.carried import Landmarked, Specimen
 
 BODY, GOOD, DOUBTFUL = (0.82, 0.80, 0.76), (0.10, 0.35, 0.75), (0.85, 0.10, 0.10)  # sRGB; set by hand
-BALL = 0.018  # radius of a landmark, in square roots of the area; set by hand
 PIXELS = 560  # of the longer side of a view; set by hand
 COLUMNS = 3  # of the sheet; set by hand
 FILLED = 0.94  # of a view, by the surface, as `render` draws it
@@ -53,7 +52,9 @@ View = tuple[Any, Floats, Bools]  # an image, where landmarks are on it (k, 2) i
 def _views(one: Specimen, up: Direction) -> list[View]:
     """Both sides of a specimen."""
     there = np.flatnonzero(one.valid)
-    shape, colours = _with_balls(one.mesh, one.positions[there], one.doubtful[there])
+    inks = np.where(one.doubtful[there, None], DOUBTFUL, GOOD)
+    body = np.tile(BODY, (one.mesh.n_vertices, 1))
+    shape, colours = with_balls(one.mesh, body, one.positions[there], inks)
     found = []
     for azimuth in AZIMUTHS:
         view = broadside(one.mesh, up, azimuth=azimuth)
@@ -117,16 +118,3 @@ def _save(path: Path, specimens: Sequence[tuple[Specimen, list[View]]], names: S
         figure.text(middle, top - 4 / height / down, one.name, ha="center", va="top", parse_math=False)
     with atomic_write(path) as stream:
         figure.savefig(stream, format="png", metadata={"Software": None})
-
-
-def _with_balls(mesh: Mesh, places: Floats, doubtful: Bools) -> tuple[Mesh, Floats]:
-    """The mesh with a ball at every landmark, and the colours of its vertices."""
-    corners = np.vstack([np.eye(3), -np.eye(3)]) * BALL * np.sqrt(mesh.area)
-    faces = np.array([[0, 1, 2], [1, 3, 2], [3, 4, 2], [4, 0, 2], [1, 0, 5], [3, 1, 5], [4, 3, 5], [0, 4, 5]])
-    n, k = mesh.n_vertices, len(places)
-    shape = Mesh(
-        np.vstack([mesh.vertices, (places[:, None] + corners).reshape(-1, 3)]),
-        np.vstack([mesh.faces, (n + 6 * np.arange(k)[:, None, None] + faces).reshape(-1, 3)]),
-    )
-    balls = np.where(doubtful[:, None], DOUBTFUL, GOOD)
-    return shape, np.vstack([np.tile(BODY, (n, 1)), np.repeat(balls, 6, axis=0)])

@@ -82,7 +82,7 @@ def command(
         "cpu_seconds": time.process_time() - started,
     }
     emit(result, as_json)
-    draw(picture, [(f"{distance} distance, {metric} metric", surface, field.min(axis=0))])
+    draw(picture, [(f"{distance} distance, {metric} metric", surface, field.min(axis=0))], marked=points)
 
 
 def _vertices(text: str, distance: Distance) -> Integers:

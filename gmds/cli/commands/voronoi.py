@@ -66,4 +66,5 @@ def command(
         "cpu_seconds": time.process_time() - started,
     }
     emit(result, as_json)
-    draw(picture, [(f"{samples} cells, {distance} distance, {metric} metric", surface, cells.nearest)], labels=True)
+    caption = f"{samples} cells, {distance} distance, {metric} metric"
+    draw(picture, [(caption, surface, cells.nearest)], labels=True, marked=cells.samples)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -18,7 +19,7 @@ from gmds.pictures.camera import alignment, broadside
 from gmds.pictures.colours import MISSING, css, label_colours, position_colours, value_colours
 from gmds.pictures.figure import FORMATS
 from gmds.pictures.offscreen import offscreen
-from gmds.pictures.panels import map_panels, write_picture, write_values
+from gmds.pictures.panels import INK, map_panels, write_picture, write_values
 from gmds.pictures.software import Shot, render, software, view_rotation
 from gmds.shapes import quadruped, truth
 
@@ -254,3 +255,21 @@ def test_what_has_no_counterpart_is_grey_on_both_surfaces(answer: Correspondence
 
 def identity(mesh: Mesh) -> Correspondence:
     return Correspondence.from_points(mesh, SurfacePoints.at_vertices(mesh, np.arange(mesh.n_vertices)))
+
+
+def test_marked_vertices_get_a_ball_where_they_can_be_seen(tmp_path: Path) -> None:
+    sphere = icosphere(3)
+    shots: list[Shot] = []
+
+    def keep(given: Sequence[Shot]) -> list[np.ndarray]:
+        shots.extend(given)
+        return software(given)
+
+    values = sphere.vertices[:, 2]
+    write_values(tmp_path / "a.png", [("a", sphere, values)], marked=[[0, 7]], renderer=keep)
+    shot = shots[0]
+    assert shot.mesh.n_vertices == sphere.n_vertices + 12
+    balls = shot.mesh.vertices[sphere.n_vertices :].reshape(2, 6, 3)
+    assert np.allclose(balls.mean(axis=1), sphere.vertices[[0, 7]])
+    assert np.allclose(shot.colours[sphere.n_vertices :], INK)
+    assert np.array_equal(shot.colours[: sphere.n_vertices], value_colours(values, values.min(), values.max()))
