@@ -35,9 +35,12 @@ def memoized(function: F) -> F:
     return wrapper  # type: ignore[return-value]
 
 
-def keep(function: Callable[[Any], T], obj: Any, result: T) -> None:
+def keep(function: Callable[..., T], obj: Any, result: T, *arguments: Hashable) -> None:
     """Have the `memoized` function return `result` for `obj`: what was read from a file is not computed again."""
-    obj.__dict__[_key(function)] = _frozen(result)
+    if arguments:
+        obj.__dict__.setdefault(_key(function), {})[arguments] = _frozen(result)
+    else:
+        obj.__dict__[_key(function)] = _frozen(result)
 
 
 def _key(function: Callable[..., Any]) -> str:

@@ -64,10 +64,15 @@ def lu_factors(matrix: sp.csc_matrix, **options: Any) -> Any:
             return sla.splu(raised, **options)
         except RuntimeError as error:
             reason = error
-    raise SingularMatrix(
-        f"a system of {len(diagonal)} unknowns cannot be solved ({reason}): vertices coincide or lie on lines; "
+    raise SingularMatrix(unsolvable(len(diagonal), reason)) from reason
+
+
+def unsolvable(count: int, reason: object) -> str:
+    """Why a system of so many unknowns has no solution, and what to do."""
+    return (
+        f"a system of {count} unknowns cannot be solved ({reason}): vertices coincide or lie on lines; "
         "weld and simplify the mesh, or store its coordinates with more digits"
-    ) from reason
+    )
 
 
 class Inverse:

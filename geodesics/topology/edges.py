@@ -11,6 +11,8 @@ from geodesics.arrays import Bools, Integers
 from geodesics.caching import memoized
 from geodesics.mesh import Mesh
 
+MOST_CODED = 2_000_000  # vertices of which three make one whole number of 64 bits
+
 
 @dataclass(frozen=True, eq=False)
 class Edges:
@@ -106,4 +108,7 @@ def proper_faces(faces: Integers) -> Integers:
     proper = np.flatnonzero((a != b) & (b != c) & (c != a))
     first = faces[proper].argmin(axis=1)
     turned = faces[proper[:, None], (first[:, None] + np.arange(3)) % 3]
-    return proper[np.sort(np.unique(turned, axis=0, return_index=True)[1])]
+    n = int(faces.max(initial=0)) + 1
+    if n > MOST_CODED:
+        return proper[np.sort(np.unique(turned, axis=0, return_index=True)[1])]
+    return proper[np.sort(np.unique((turned[:, 0] * n + turned[:, 1]) * n + turned[:, 2], return_index=True)[1])]

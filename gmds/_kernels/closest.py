@@ -96,12 +96,37 @@ def nearest_around(
 
 @njit
 def _in_triangle(g11: float, g12: float, g22: float, r1: float, r2: float) -> tuple[float, float]:
-    """The point u e1 + v e2 of a triangle nearest to x, from the products of e1, e2 and x."""
-    det = g11 * g22 - g12 * g12
-    if det > 1e-14 * g11 * g22:
-        u, v = (g22 * r1 - g12 * r2) / det, (g11 * r2 - g12 * r1) / det
-        if u >= 0 and v >= 0 and u + v <= 1:
-            return u, v
+    """The point u e1 + v e2 of a triangle nearest to x, from the products of e1, e2 and x.
+
+    By the region of the plane that x lies over (Ericson: Real-time collision detection, 2005, sec. 5.1.5).
+    """
+    if g11 * g22 - g12 * g12 <= 1e-14 * g11 * g22:
+        return _on_edges(g11, g12, g22, r1, r2)
+    if r1 <= 0.0 and r2 <= 0.0:
+        return 0.0, 0.0
+    b1, b2 = r1 - g11, r2 - g12
+    if b1 >= 0.0 and b2 <= b1:
+        return 1.0, 0.0
+    beyond_first = r1 * b2 - b1 * r2
+    if beyond_first <= 0.0 and r1 >= 0.0 and b1 <= 0.0:
+        return r1 / g11, 0.0
+    c1, c2 = r1 - g12, r2 - g22
+    if c2 >= 0.0 and c1 <= c2:
+        return 0.0, 1.0
+    beyond_second = c1 * r2 - r1 * c2
+    if beyond_second <= 0.0 and r2 >= 0.0 and c2 <= 0.0:
+        return 0.0, r2 / g22
+    beyond_third = b1 * c2 - c1 * b2
+    if beyond_third <= 0.0 and b2 >= b1 and c1 >= c2:
+        v = (b2 - b1) / ((b2 - b1) + (c1 - c2))
+        return 1.0 - v, v
+    scale = 1.0 / (beyond_first + beyond_second + beyond_third)
+    return beyond_second * scale, beyond_first * scale
+
+
+@njit
+def _on_edges(g11: float, g12: float, g22: float, r1: float, r2: float) -> tuple[float, float]:
+    """The same for a triangle without area: the nearest point of its edges."""
     best_u, best_v, best = 0.0, 0.0, np.inf
     for edge in range(3):
         if edge == 0:

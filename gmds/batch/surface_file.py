@@ -28,7 +28,7 @@ from gmds.matching.pair import reversing, simplified
 from gmds.registration.deformable import DeformableMesh
 from gmds.spectral.refinement import CARRIERS, GOALS
 from gmds.spectral.sample_maps import TARGET_SAMPLES
-from gmds.surface.measured import Surface
+from gmds.surface.measured import EXPONENTS, Surface
 from gmds.surface.view import View
 
 VERSION = 3  # of the layout; a file of another is measured again
@@ -98,7 +98,9 @@ def _surface(arrays: Arrays) -> Surface:
     original, mesh = (Mesh(arrays[f"{name}_vertices"], arrays[f"{name}_faces"]) for name in ("original", "mesh"))
     surface = Surface(original, mesh, arrays["face_index"], clean=_clean(arrays, original))
     views = tuple(_view(arrays, f"view{i}", mesh) for i in range(sum(f"view{i}_mass" in arrays for i in range(9))))
-    vars(surface)["views"], vars(surface)["regular"] = views, views[-1]
+    for exponent, view in zip(EXPONENTS, views[:-1], strict=True):
+        keep(Surface.curved, surface, view, exponent)
+    vars(surface)["regular"] = views[-1]
     vars(surface)["squashed_curvature"] = arrays["curvature"]
     keep(simplified, surface, _simplified(arrays, surface))
     keep(reversing, surface, arrays.get("reversing"))

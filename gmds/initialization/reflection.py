@@ -25,9 +25,11 @@ def mirror(surface: Surface, view: View) -> Integers | None:
     all signs of the first few are tried, and the likely ones refined to the end.
     """
     pair = SampledPair.of(view, view, -1)
-    begun = pair.all_refined(eigenfunction_signs(pair), COARSE[:FIRST_STEPS])
-    likely = np.argsort([pair.stress(images) for images in begun], kind="stable")[:KEPT]
-    maps = pair.all_refined([begun[i] for i in likely], COARSE[FIRST_STEPS:])
+    few = pair.coarse
+    begun = few.all_refined(eigenfunction_signs(few), COARSE[:FIRST_STEPS])
+    likely = np.argsort([few.stress(images) for images in begun], kind="stable")[:KEPT]
+    maps = [pair.of_coarse(begun[i], COARSE[FIRST_STEPS - 1]) for i in likely]
+    maps = pair.all_refined(maps, COARSE[FIRST_STEPS:])
     for i in np.argsort([pair.stress(images) for images in maps], kind="stable"):
         if pair.stress(maps[i]) > MOST_STRESS:
             return None

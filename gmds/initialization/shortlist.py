@@ -20,8 +20,9 @@ def shortlist(
     pair: SampledPair, starts: Sequence[Callable[[SampledPair], list[Integers]]], count: int
 ) -> list[Integers]:
     """At most `count` sample maps, all apart from each other, those of least stress first."""
-    begun = pair.all_refined([images for start in starts for images in start(pair)], COARSE[:FIRST_STEPS])
-    begun = [begun[i] for i in _by_stress(pair, begun)[:TRIED]]
+    few = pair.coarse
+    begun = few.all_refined([images for start in starts for images in start(few)], COARSE[:FIRST_STEPS])
+    begun = [pair.of_coarse(begun[i], COARSE[FIRST_STEPS - 1]) for i in _by_stress(few, begun)[:TRIED]]
     done = pair.all_refined(begun, COARSE[FIRST_STEPS:])
     kept: list[Integers] = []
     for i in _by_stress(pair, done):

@@ -15,13 +15,14 @@ from gmds.correspondence import Correspondence
 from gmds.landmarks.constraints import LandmarkConstraints
 from gmds.maps.point_map import Candidate, MatchStatus
 from gmds.matching.candidates import make_candidate
+from gmds.matching.effort import is_isometric
 from gmds.matching.given_distances import GivenDistances
 from gmds.matching.pair import SurfacePair
 from gmds.matching.part_answers import PartAnswer, Parts, likelier_part, maps_of_parts
 from gmds.matching.proposals import Proposal, likely_maps, proposals
 from gmds.matching.rating import AMBIGUOUS_MARGIN
 from gmds.matching.result import correspondence_of
-from gmds.matching.steps import Report, starts_of, views_of
+from gmds.matching.steps import Report, rounds_of, starts_of
 from gmds.mds.losses import Loss
 from gmds.parts.handedness import AS_IT_IS, INSIDE_OUT, MIRRORED, Image, image_costs
 from gmds.surface.measured import Surface
@@ -75,9 +76,10 @@ class Attempt:
     def at(cls, source: Surface, target: Surface, image: Image, wanted: Wanted) -> Attempt:
         """What is proposed for an image of the target."""
         pair = SurfacePair(source, image.of(target), wanted.landmarks, image.reverses)
-        views, given = views_of(pair, wanted.distance)
-        maps = proposals(pair, views, starts_of(pair), lambda share: wanted.report("proposing", 0.2 + 0.3 * share))
-        return cls(image, pair, likely_maps(maps, pair.simplified[0].areas), given, wanted)
+        rounds, given = rounds_of(pair, wanted.distance)
+        found = proposals(pair, rounds, starts_of(pair), lambda share: wanted.report("proposing", 0.2 + 0.3 * share))
+        pair = replace(pair, isometric=found.decided and is_isometric(pair, found.maps))
+        return cls(image, pair, likely_maps(found.maps, pair.simplified[0].areas), given, wanted)
 
     @cached_property
     def of_parts(self) -> list[PartAnswer]:

@@ -17,7 +17,7 @@ from gmds.mds.solver import Solution
 from gmds.registration.register import Registered, assessed, register
 from gmds.registration.settings import FULL, RegistrationSettings
 from gmds.spectral.extension import extend
-from gmds.spectral.refinement import ROUNDS
+from gmds.spectral.refinement import ROUNDS, upsampled
 from gmds.surface.view import View
 
 FUNCTIONS = 60  # eigenfunctions of the dense map; set by hand
@@ -49,8 +49,7 @@ def make_candidate(
     """
     images = prolonged(pair, proposal)
     if given is None:
-        images, view = pair.refiner.aligned(images, range(len(ROUNDS)))
-        views = pair.source.regular, view
+        images, views = refined_images(pair, images)
         points, solution = placed(pair, images, views, loss, count, diffusion_distances(*views))
         deformation = registered(pair, points)
         points = deformation.points
@@ -60,6 +59,15 @@ def make_candidate(
         deformation = assessed(*pair.full, points.positions, FULL)
     weighed = evidence(pair, views, points, proposal.residuals, deformation.residuals)
     return MapCandidate(pair, points, views, solution, deformation, weighed)
+
+
+def refined_images(pair: SurfacePair, images: Integers) -> tuple[Integers, tuple[View, View]]:
+    """A map `images` (n,) refined spectrally, and both surfaces in the metrics in which that was done."""
+    if pair.isometric:
+        views = pair.source.regular, pair.target.regular
+        return upsampled(*views, images), views
+    images, view = pair.refiner.aligned(images, range(len(ROUNDS)))
+    return images, (pair.source.regular, view)
 
 
 def prolonged(pair: SurfacePair, proposal: Proposal) -> Integers:

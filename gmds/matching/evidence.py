@@ -102,6 +102,6 @@ def evidence(
         stress=float(np.abs(here - there).mean() / here.mean()),
         orientation=-score if pair.reflected else score,
         folded=(1 - score) / 2,
-        closed=not any(mesh.boundary.any() for mesh in pair.full),
+        closed=pair.closed,
         landmark_error=miss,
     )

@@ -26,12 +26,14 @@ class SurfacePair:
     """What is to be matched: two surfaces, and the `landmarks` given of the map, or None.
 
     `reflected`: whether the target is the mirror image of what was given, for maps that reverse orientation.
+    `isometric`: whether it is known that parts keep their sizes, so that maps are refined in the metric of space.
     """
 
     source: Surface
     target: Surface
     landmarks: LandmarkConstraints | None = None
     reflected: bool = False
+    isometric: bool = False
 
     @cached_property
     def simplified(self) -> tuple[DeformableMesh, DeformableMesh]:
@@ -43,6 +45,11 @@ class SurfacePair:
     def full(self) -> tuple[DeformableMesh, DeformableMesh]:
         """Both surfaces with all their faces."""
         return self._anchored(full(self.source), full(self.target))
+
+    @cached_property
+    def closed(self) -> bool:
+        """Whether neither surface has a boundary."""
+        return not any(mesh.boundary.any() for mesh in self.full)
 
     def _anchored(self, source: DeformableMesh, target: DeformableMesh) -> tuple[DeformableMesh, DeformableMesh]:
         if self.landmarks is None:

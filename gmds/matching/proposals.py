@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -22,6 +23,7 @@ from gmds.spectral.sample_maps import SampledPair
 from gmds.surface.view import View
 
 Start = Callable[[SampledPair], list[Integers]]
+Views = Callable[[], Sequence[tuple[View, View]]]
 
 MAPS_PER_METRIC = 16  # proposed: what is weighed in benchmarks/results/notes.md, "Choice by elastic energy"
 LEAST_SETTLED = 8  # maps, at the least, that are registered to the end; set by hand
@@ -36,6 +38,12 @@ EMBEDDED = 3  # maps of a pair, at the most, whose samples are placed: each cost
 # Of log-likelihood from the best: no map that fell short by more was the answer on 15 development pairs, the farthest
 # by 0.05 (benchmarks/results/notes.md, "Speed of a match").
 SHORTFALL = 0.8
+# Below it a map in the metric of space of closed surfaces is right, or at least none of the other metrics is better:
+# of 78 of 216 pairs the error is below 6 (benchmarks/results/notes.md, "Effort").
+DECISIVE = -10.5
+FEWEST_DECIDED = 2000  # vertices: with fewer the other metrics do find better maps ("Effort" there)
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,32 +78,67 @@ class Proposal:
         return sum(residuals.neg_log_likelihood for residuals in self.residuals)
 
 
+class Proposed(NamedTuple):
+    """The maps, and whether they were `decided` before the last round."""
+
+    maps: list[Proposal]
+    decided: bool
+
+
 def proposals(
     pair: SurfacePair,
-    views: Sequence[tuple[View, View]],
+    rounds: Sequence[Views],
     starts: Sequence[Start],
     progress: Callable[[float], None] | None = None,
-) -> list[Proposal]:
-    """Maps from starts in each pair of views, and composed with a reflection, each registered on the simplified meshes.
+) -> Proposed:
+    """Maps from starts in pairs of views, and composed with a reflection, each registered on the simplified meshes.
 
     A reflection of either surface makes of a mirrored map the right one, and of a right one the mirrored. Which is
     which shows when the simplified source is deformed: a surface cannot be turned inside out for little. The third
     that needs the least deformation to begin with is registered to the end, and `MOST_RETURNED` of these the way back.
+
+    The views of a round are not asked for where nothing can be missing and a map of those before is `DECISIVE`.
     """
     source, target = pair.simplified
-    places = [target.mesh.vertices[images] for images in rough_maps(pair, views, starts)]
-    first, second, third = (_part(progress, *shares) for shares in ((0.6, 0.75), (0.75, 0.9), (0.9, 1.0)))
     begin, settle = SIMPLIFIED.with_stages(TO_IMAGES), SIMPLIFIED.with_stages(COARSE)
-    begun = side_by_side(lambda place: register(source, target, place, begin), places, first)
-    cheap = _without_repeats(_cheapest(begun)[: max(LEAST_SETTLED, len(places) // 3)], source)
-    there = side_by_side(lambda start: settled(source, target, start.y, settle), cheap, second)
-    complete = functools.partial(Proposal.completed, pair, settings=SIMPLIFIED)
-    return side_by_side(complete, _cheapest(there)[:MOST_RETURNED], third)
+    there = _Kept(lambda start: settled(source, target, start.y, settle))
+    done = _Kept(functools.partial(Proposal.completed, pair, settings=SIMPLIFIED))
+    begun: list[Registered] = []
+    for number, views in enumerate(rounds):
+        parts = [_part(progress, number, len(rounds), *shares) for shares in ((0.6, 0.75), (0.75, 0.9), (0.9, 1.0))]
+        places = [target.mesh.vertices[images] for images in rough_maps(pair, views(), starts)]
+        begun += side_by_side(lambda place: register(source, target, place, begin), places, parts[0])
+        cheap = _without_repeats(_cheapest(begun)[: max(LEAST_SETTLED, len(begun) // 3)], source)
+        maps = done.of(_cheapest(there.of(cheap, parts[1]))[:MOST_RETURNED], parts[2])
+        if number + 1 < len(rounds) and _decisive(pair, maps):
+            return Proposed(maps, decided=True)
+    return Proposed(maps, decided=False)
 
 
-def _part(progress: Callable[[float], None] | None, start: float, end: float) -> Callable[[float], None]:
-    """Reports to `progress` a part of the work that begins and ends at these shares of the whole."""
-    return lambda share: None if progress is None else progress(start + (end - start) * share)
+def _decisive(pair: SurfacePair, maps: Sequence[Proposal]) -> bool:
+    fewest = min(len(surface.regular.usable) for surface in (pair.source, pair.target))
+    return pair.closed and fewest >= FEWEST_DECIDED and min(one.neg_log_likelihood for one in maps) < DECISIVE
+
+
+class _Kept(Generic[T]):
+    """A function of deformations, each computed once however often it is asked for."""
+
+    def __init__(self, function: Callable[[Registered], T]) -> None:
+        self._function = function
+        self._found: dict[Registered, T] = {}
+
+    def of(self, asked: Sequence[Registered], progress: Callable[[float], None]) -> list[T]:
+        """What it makes of each, in their order."""
+        new = [one for one in asked if one not in self._found]
+        self._found |= zip(new, side_by_side(self._function, new, progress), strict=True)
+        return [self._found[one] for one in asked]
+
+
+def _part(
+    progress: Callable[[float], None] | None, number: int, count: int, start: float, end: float
+) -> Callable[[float], None]:
+    """Reports to `progress` a part of round `number` of `count`, which begins and ends at these shares of it."""
+    return lambda share: None if progress is None else progress((number + start + (end - start) * share) / count)
 
 
 def _cheapest(deformations: Sequence[Registered]) -> list[Registered]:

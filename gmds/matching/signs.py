@@ -23,7 +23,6 @@ import numpy as np
 from geodesics.arrays import Floats, Integers
 from geodesics.euclidean import euclidean_distances
 from gmds.matching.candidates import MapCandidate
-from gmds.registration.deformable import DeformableMesh
 
 Signs: TypeAlias = dict[str, Floats]
 
@@ -51,8 +50,7 @@ def signs_of(candidate: MapCandidate, margin: float) -> Signs:
         return near(areas * (1 - np.clip((source.moved_normals(positions) * there).sum(axis=1), -1, 1)))
 
     curvatures = source.curvature, candidate.points.interpolate(target.curvature)
-    grown = _areas_around(source, image)
-    growth = [np.log(np.maximum(heat(grown), 1e-6) / np.maximum(heat(areas), 1e-6)) for heat in (near, far)]
+    growth = [source.log_growth(image, time) for time in (NEAR, FAR)]
     local = {
         "curvature_far": _logarithm(_uncorrelated(*(far(areas * x) for x in _moments(*curvatures)))),
         "curvature_near": _logarithm(_uncorrelated(*(near(areas * x) for x in _moments(*curvatures)))),
@@ -96,14 +94,6 @@ def _uncorrelated(a: Floats, b: Floats, aa: Floats, bb: Floats, ab: Floats) -> F
     """1 less the correlation, of averages."""
     spread = np.sqrt(np.maximum((aa - a * a) * (bb - b * b), 1e-9) + FLAT)
     return np.asarray(1 - (ab - a * b) / spread, dtype=np.float64)
-
-
-def _areas_around(source: DeformableMesh, positions: Floats) -> Floats:
-    """A third of the faces around each vertex (n,) when vertices are at `positions`; the sum is 1."""
-    a, b, c = (positions[corner] for corner in source.mesh.faces.T)
-    faces = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    areas = np.bincount(source.mesh.faces.ravel(), np.repeat(faces, 3), source.mesh.n_vertices)
-    return np.asarray(areas / max(areas.sum(), np.finfo(float).tiny), dtype=np.float64)
 
 
 def _left_by_functional_map(candidate: MapCandidate, areas: Floats) -> Floats:

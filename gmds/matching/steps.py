@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import itertools
 from collections.abc import Callable, Sequence
 
 from geodesics import Distance, Mesh
@@ -13,9 +14,10 @@ from gmds.matching.candidates import MapCandidate, make_candidate
 from gmds.matching.given_distances import GivenDistances
 from gmds.matching.pair import SurfacePair
 from gmds.matching.polishing import polished
-from gmds.matching.proposals import Proposal, Start
+from gmds.matching.proposals import Proposal, Start, Views
 from gmds.matching.result import contenders
 from gmds.mds.losses import Loss
+from gmds.surface.measured import EXPONENTS
 from gmds.surface.view import View
 
 # Hard landmarks, and landmarks of any kind, that need no other starts: chosen on development pairs of SHREC'20
@@ -26,19 +28,30 @@ ENOUGH = 6
 Report = Callable[[str, float], None]
 
 
-def views_of(
+def rounds_of(
     pair: SurfacePair, distance: Callable[[Mesh], Distance] | None
-) -> tuple[list[tuple[View, View]], GivenDistances | None]:
-    """Both surfaces in each metric in which maps are proposed, and the distances that are given, if any.
+) -> tuple[list[Views], GivenDistances | None]:
+    """Both surfaces in each metric in which maps are proposed, by rounds, and the distances that are given, if any.
 
-    Beside the metric of these distances that of space: where a pair is nearly isometric, it tells the map from its
-    mirror image and from halves of both, which the curvature of few surfaces does as well.
+    First the metric of space: where it decides, those of curvature need not be measured. Beside the metric of distances
+    that are given that of space: where a pair is nearly isometric, it tells the map from its mirror image and from
+    halves of both, which the curvature of few surfaces does as well.
     """
     if distance is None:
-        ours, theirs = side_by_side(lambda surface: surface.views, (pair.source, pair.target))
-        return list(zip(ours, theirs, strict=True)), None
+        return [functools.partial(_in_space, pair), functools.partial(_curved, pair)], None
     given, regular = GivenDistances.of(pair.source, pair.target, distance), (pair.source.regular, pair.target.regular)
-    return [given.views, *([regular] if given.differ_from(regular) else [])], given
+    views = [given.views, *([regular] if given.differ_from(regular) else [])]
+    return [lambda: views], given
+
+
+def _in_space(pair: SurfacePair) -> list[tuple[View, View]]:
+    ours, theirs = side_by_side(lambda surface: surface.regular, (pair.source, pair.target))
+    return [(ours, theirs)]
+
+
+def _curved(pair: SurfacePair) -> list[tuple[View, View]]:
+    views = side_by_side(lambda both: both[0].curved(both[1]), itertools.product((pair.source, pair.target), EXPONENTS))
+    return list(zip(views[: len(EXPONENTS)], views[len(EXPONENTS) :], strict=True))
 
 
 def starts_of(pair: SurfacePair) -> list[Start]:

@@ -10,6 +10,7 @@ from scipy.spatial import cKDTree
 
 from geodesics import SurfacePoints
 from geodesics.arrays import Floats, Integers
+from gmds._kernels.deformation import weighted_goals
 from gmds.registration.deformable import DeformableMesh
 from gmds.registration.settings import RegistrationSettings
 from gmds.surface.view import View
@@ -72,14 +73,10 @@ class ClosestPoints:
             weight_back = np.where(away > settings.reciprocal, 0.0, weight_back)
         return cls(points, near, back, weight, weight_back)
 
-    def point_constraints(self, source: DeformableMesh, target: DeformableMesh) -> tuple[Floats, Floats]:
+    def point_constraints(self, target: DeformableMesh) -> tuple[Floats, Floats]:
         """Weights (n,) and goals (n, 3) of the point constraints on vertices: to the target, and those from it."""
-        place, n = target.mesh.vertices[target.usable], source.mesh.n_vertices
-        weights = self.weight + np.bincount(self.back, self.weight_back, minlength=n)
-        total = self.weight[:, None] * self.points.positions
-        for k in range(3):
-            total[:, k] += np.bincount(self.back, self.weight_back * place[:, k], minlength=n)
-        return weights, total / np.maximum(weights, np.finfo(float).tiny)[:, None]
+        place = target.mesh.vertices[target.usable]
+        return weighted_goals(self.weight, self.points.positions, self.back, self.weight_back, place)
 
 
 def _spectral_rows(source: DeformableMesh, views: tuple[View, View], images: Integers) -> tuple[Single, Single]:

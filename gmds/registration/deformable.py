@@ -18,6 +18,7 @@ from geodesics.repair.decimation import decimated
 from geodesics.topology.components import boundary_vertices
 from geodesics.topology.edges import proper_faces
 from gmds._kernels.closest import closest_on_faces, nearest_around
+from gmds._kernels.deformation import positions_and_normals
 from gmds.registration.anchors import Anchors
 from gmds.registration.energies import Energy, EnergyKind
 from gmds.registration.laplacian import CotangentLaplacian
@@ -28,6 +29,7 @@ SIMPLIFIED_FACES = 1600  # one registration then takes 0.05 CPU seconds, and all
 # (benchmarks/results/notes.md, "Deforming the source").
 NORMAL_WEIGHT = 0.1
 LOOKS = 4  # from vertex to vertex for the closest point, at the most; set by hand
+LEAST_SHARE = 1e-6  # of the area, around a vertex: a bound, so that a logarithm is finite
 STEPS = 2  # from vertex to vertex for the closest vertex, at the most ("Faster by a third" says what that saves)
 
 
@@ -80,6 +82,21 @@ class DeformableMesh:
         areas = one_ring_areas(self.mesh)
         return np.asarray(areas / areas.sum(), dtype=np.float64)
 
+    def areas_at(self, y: Floats) -> Floats:
+        """A third of the faces around each vertex (n,) when the vertices are at y (n, 3); the sum is 1."""
+        a, b, c = (y[corner] for corner in self.mesh.faces.T)
+        faces = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+        areas = np.bincount(self.mesh.faces.ravel(), np.repeat(faces, 3), self.mesh.n_vertices)
+        return np.asarray(areas / max(areas.sum(), np.finfo(float).tiny), dtype=np.float64)
+
+    def log_growth(self, y: Floats, time: float) -> Floats:
+        """The logarithm of how much larger the area around each vertex (n,) is with the vertices at y (n, 3).
+
+        Both areas, as shares of the whole, are smoothed by an implicit heat step of `time`, in units of the area.
+        """
+        now, before = (self.laplacian.heat_step(time)(areas) for areas in (self.areas_at(y), self.areas))
+        return np.asarray(np.log(np.maximum(now, LEAST_SHARE) / np.maximum(before, LEAST_SHARE)), dtype=np.float64)
+
     @cached_property
     def laplacian(self) -> CotangentLaplacian:
         """Its Laplacian, of which the energies are made."""
@@ -102,10 +119,7 @@ class DeformableMesh:
 
     def moved_features(self, y: Floats) -> Floats:
         """The features (n, 6) after moving the vertices to y (n, 3)."""
-        a, b, c = (y[corner] for corner in self.mesh.faces.T)
-        normals = self._around @ np.cross(b - a, c - a)
-        size = np.linalg.norm(normals, axis=1, keepdims=True)
-        return np.hstack([y, NORMAL_WEIGHT * normals / np.maximum(size, np.finfo(float).tiny)])
+        return positions_and_normals(self.mesh.faces, y, NORMAL_WEIGHT)
 
     def moved_normals(self, y: Floats) -> Floats:
         """Unit normals (n, 3) after moving the vertices to y (n, 3)."""

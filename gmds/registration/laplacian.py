@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
+from numpy.typing import NDArray
 
 from geodesics import Mesh, embedded, stiffness
 from geodesics.arrays import Floats
@@ -26,6 +27,11 @@ class CotangentLaplacian:
         cotangents = sp.csr_matrix(-stiffness(embedded(self.mesh)))
         cotangents.setdiag(0)
         return sp.csr_matrix(cotangents.maximum(0))
+
+    @cached_property
+    def edges(self) -> tuple[NDArray[np.int32], NDArray[np.int32], Floats]:
+        """Where the neighbours of each vertex start (n + 1,), the neighbours, and the weights of their edges."""
+        return self.weights.indptr, self.weights.indices, self.weights.data
 
     @cached_property
     def system(self) -> StiffnessSystem:

@@ -101,23 +101,33 @@ def settled(source: DeformableMesh, target: DeformableMesh, y: Floats, settings:
     register : From a rough map.
     """
     energy = source.energy(settings.energy)
+    closest = None
     for stiffness_weight, steps in settings.stages:
-        closest = None
         for _ in range(steps):
             closest = ClosestPoints.of(source, target, y, settings, closest)
-            weights, goals = closest.point_constraints(source, target)
+            weights, goals = closest.point_constraints(target)
             local = energy.local_step(y)
             if source.anchors is not None:
                 total = float(energy.value(y, local).sum())
                 weights, goals = source.anchors.added_to((weights, goals), y, stiffness_weight, total)
             pull = energy.right_hand_side(local)
             y = energy.system.solver(stiffness_weight, weights)(stiffness_weight * pull + weights[:, None] * goals)
-    return assessed(source, target, y, settings)
+    return assessed(source, target, y, settings, closest)
 
 
-def assessed(source: DeformableMesh, target: DeformableMesh, y: Floats, settings: RegistrationSettings) -> Registered:
-    """The source with its vertices at y (n, 3), as it is: closest points by position and normal, and residuals."""
-    energy, closest = source.energy(settings.energy), ClosestPoints.of(source, target, y, replace(settings, views=None))
+def assessed(
+    source: DeformableMesh,
+    target: DeformableMesh,
+    y: Floats,
+    settings: RegistrationSettings,
+    before: ClosestPoints | None = None,
+) -> Registered:
+    """The source with its vertices at y (n, 3), as it is: closest points by position and normal, and residuals.
+
+    Where the points closest just `before` are known, they are looked for near those.
+    """
+    energy, settings = source.energy(settings.energy), replace(settings, views=None)
+    closest = ClosestPoints.of(source, target, y, settings, before)
     points, back = closest.points, closest.back
     value = energy.value(y, energy.local_step(y))
     gap = np.linalg.norm(points.positions - y, axis=1)

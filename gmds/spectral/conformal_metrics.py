@@ -20,7 +20,7 @@ from geodesics import Spectrum, embedded, stiffness
 from geodesics.arrays import Floats
 from geodesics.caching import cached_property, memoized
 from geodesics.linalg.factors import lu_factors
-from gmds.surface.measured import Surface
+from gmds.surface.measured import EXPONENTS, Surface
 from gmds.surface.view import View
 
 LARGEST_FACTOR = 100.0  # of areas, and one over the least: a bound
@@ -37,7 +37,7 @@ class ConformalClass:
     def basis(self) -> Floats:
         """Functions (n, q) orthonormal in area: eigenfunctions of space, and what those of (2.1) add to them."""
         regular, weight = self.surface.regular.functions, self.surface.areas[:, None]
-        others = self.surface.views[0].functions[:, 1:FINE]
+        others = self.surface.curved(EXPONENTS[0]).functions[:, 1:FINE]
         others = others - regular @ (regular.T @ (weight * others))
         values, vectors = np.linalg.eigh(others.T @ (weight * others))
         kept = values > 1e-4

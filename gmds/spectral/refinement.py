@@ -28,6 +28,7 @@ LADDER = (16, 20, 24, 28, 32, 40, 50, 60)  # numbers of eigenfunctions without a
 # hand: all vertices would cost several times as much.
 CARRIERS = 1500
 GOALS = 2500
+STEP_GOALS = 1500  # target vertices between one number of eigenfunctions and the next ("Effort" there)
 PER_FUNCTION = 15  # samples that each eigenfunction is fitted to, at the least; set by hand
 # Eigenfunctions, at the most, that placed samples are continued with, samples for each of them, at the least, and the
 # weight of the map before as a share of theirs: on four development pairs a tenth keeps what samples do not cover, and
@@ -111,7 +112,8 @@ def upsampled(source: View, target: View, images: Integers, sizes: Sequence[int]
     """
     steps = _available(sizes, source, target)
     samples = source.samples(max(FITTED, PER_FUNCTION * steps[-1]))
-    matrix, _ = spectral_upsampling(source.functions[samples], target.functions, images[samples], steps, target.usable)
+    goals = target.samples(STEP_GOALS)
+    matrix, _ = spectral_upsampling(source.functions[samples], target.functions, images[samples], steps, goals)
     return _images(source.functions, target, matrix, target.usable)
 
 

@@ -46,6 +46,19 @@ class SampledPair:
         return cls(source, target, source.samples(SOURCE_SAMPLES), target.samples(TARGET_SAMPLES), sense)
 
     @cached_property
+    def coarse(self) -> SampledPair:
+        """The pair with the first half of its samples, on which the first steps from a start cost a quarter."""
+        halves = (
+            self.source_samples[: len(self.source_samples) // 2],
+            self.target_samples[: len(self.target_samples) // 2],
+        )
+        return SampledPair(self.source, self.target, *halves, self.sense)
+
+    def of_coarse(self, images: Integers, k: int) -> Integers:
+        """A sample map of the coarse pair on all samples, by its functional map of k eigenfunctions."""
+        return self.images(self.coarse.matrix(images, k))
+
+    @cached_property
     def source_rows(self) -> Floats:
         """Eigenfunctions at the source samples (p, k)."""
         return self.source.functions[self.source_samples]

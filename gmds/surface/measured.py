@@ -10,7 +10,7 @@ import numpy as np
 
 from geodesics import Mesh, Metric, Spectrum, SurfacePoints, eigenpairs, embedded, scale_invariant
 from geodesics.arrays import Floats, Integers
-from geodesics.caching import cached_property
+from geodesics.caching import cached_property, memoized
 from geodesics.curvature import mean_curvature
 from geodesics.intrinsic import areas, squared_lengths
 from geodesics.repair.cleaning import CleanCopy, cleaned
@@ -60,11 +60,15 @@ class Surface:
         """The surface in a metric in which rough maps are made."""
         return View.of(eigenpairs(metric(self.mesh), min(ROUGH_FUNCTIONS, self._most)))
 
-    @cached_property
+    @property
     def views(self) -> tuple[View, ...]:
         """The surface in members of the family |K|^a g, from the scale-invariant metric (2.1) to that of space."""
-        curved = [functools.partial(scale_invariant, exponent=a, smoothing=SMOOTHING) for a in EXPONENTS]
-        return (*(self.view(metric) for metric in curved), self.regular)
+        return (*(self.curved(exponent) for exponent in EXPONENTS), self.regular)
+
+    @memoized
+    def curved(self, exponent: float) -> View:
+        """The surface in the metric |K|^a g, a the exponent."""
+        return self.view(functools.partial(scale_invariant, exponent=exponent, smoothing=SMOOTHING))
 
     @cached_property
     def regular(self) -> View:

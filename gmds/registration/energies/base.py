@@ -11,6 +11,7 @@ import numpy as np
 
 from geodesics.arrays import Floats
 from geodesics.caching import cached_property
+from gmds._kernels.deformation import products, spread, turned_differences
 from gmds._kernels.rotations import nearest_rotations
 from gmds.registration.laplacian import CotangentLaplacian
 from gmds.registration.stiffness import StiffnessSystem
@@ -82,11 +83,7 @@ class LocalGlobalEnergy(ABC):
 
     def right_hand_side(self, local: Floats) -> Floats:
         """What L y has to be (n, 3) for the vertices that go best with the matrices (n, 3, 3)."""
-        x, lx = self.laplacian.mesh.vertices, self._rest[0]
-        around = (self.laplacian.weights @ local.reshape(-1, 9)).reshape(-1, 3, 3)
-        turned = np.einsum("nab,nb->na", local, x)
-        total = apply(local, lx) + apply(around, x) - self.laplacian.weights @ turned
-        return np.asarray(0.5 * total, dtype=np.float64)
+        return turned_differences(*self.laplacian.edges, self.laplacian.mesh.vertices, local)
 
     def value(self, y: Floats, local: Floats) -> Floats:
         """The energy (n,) around each vertex."""
@@ -94,29 +91,18 @@ class LocalGlobalEnergy(ABC):
         mixed = np.einsum("nba,nab->n", local, self.products(y))
         return np.maximum(self.spread(y) - 2 * mixed + squares * self.rest_spread, 0.0)
 
-    @property
+    @cached_property
     def rest_spread(self) -> Floats:
         """sum_j w_ij |x_i - x_j|^2 (n,)."""
-        return self._rest[2]
-
-    @cached_property
-    def _rest(self) -> tuple[Floats, Floats, Floats]:
-        """L x and W x (n, 3), and the spread of x (n,)."""
-        x = self.laplacian.mesh.vertices
-        return self.laplacian.matrix @ x, self.laplacian.weights @ x, self.spread(x)
+        return self.spread(self.laplacian.mesh.vertices)
 
     def products(self, y: Floats) -> Floats:
         """sum_j w_ij (x_i - x_j)(y_i - y_j)^T, (n, 3, 3)."""
-        x, wx = self.laplacian.mesh.vertices, self._rest[1]
-        outer = (x[:, :, None] * y[:, None, :]).reshape(-1, 9)
-        products = x[:, :, None] * (self.laplacian.matrix @ y)[:, None, :] - wx[:, :, None] * y[:, None, :]
-        return np.asarray(products + (self.laplacian.weights @ outer).reshape(-1, 3, 3), dtype=np.float64)
+        return products(*self.laplacian.edges, self.laplacian.mesh.vertices, y)
 
     def spread(self, y: Floats) -> Floats:
         """sum_j w_ij |y_i - y_j|^2 (n,)."""
-        weights, square = self.laplacian.weights, np.einsum("na,na->n", y, y)
-        cross = np.einsum("na,na->n", y, weights @ y)
-        return np.asarray(self.laplacian.matrix.diagonal() * square - 2 * cross + weights @ square, dtype=np.float64)
+        return spread(*self.laplacian.edges, y)
 
 
 def apply(matrices: Floats, rows: Floats) -> Floats:

@@ -59,18 +59,23 @@ class ThinShell(LocalGlobalEnergy):
 
     def right_hand_side(self, local: Floats) -> Floats:
         """What K y has to be (n, 3) for the vertices that go best with the rotations (n, 3, 3)."""
-        turned = apply(local, self._per_area[:, None] * self._rest[0])
+        turned = apply(local, self._per_area[:, None] * self._rest)
         return super().right_hand_side(local) + 0.5 * self.bending * (self.laplacian.matrix @ turned)
 
     def products(self, y: Floats) -> Floats:
         """sum_j w_ij (x_i - x_j)(y_i - y_j)^T + b A_i d_i(x) d_i(y)^T, (n, 3, 3)."""
-        weighted = (self.bending * self._per_area)[:, None] * self._rest[0]
+        weighted = (self.bending * self._per_area)[:, None] * self._rest
         return super().products(y) + weighted[:, :, None] * (self.laplacian.matrix @ y)[:, None, :]
 
     def spread(self, y: Floats) -> Floats:
         """sum_j w_ij |y_i - y_j|^2 + b A_i |d_i(y)|^2, (n,)."""
         square = ((self.laplacian.matrix @ y) ** 2).sum(axis=1)
         return super().spread(y) + self.bending * self._per_area * square
+
+    @cached_property
+    def _rest(self) -> Floats:
+        """L x (n, 3)."""
+        return np.asarray(self.laplacian.matrix @ self.laplacian.mesh.vertices, dtype=np.float64)
 
     @property
     def _per_area(self) -> Floats:

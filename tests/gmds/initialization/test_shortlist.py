@@ -23,6 +23,11 @@ def pair() -> SampledPair:
     return SampledPair.of(view, view)
 
 
+def same(pair: SampledPair) -> Index:
+    """The identity, of as many samples as there are."""
+    return np.arange(len(pair.source_samples))
+
+
 @pytest.fixture(scope="module")
 def found(pair: SampledPair) -> list[Index]:
     return shortlist(pair, ALL, 6)
@@ -31,8 +36,7 @@ def found(pair: SampledPair) -> list[Index]:
 def test_the_best_map_of_a_surface_to_itself_is_the_identity_or_the_mirror(
     pair: SampledPair, found: list[Index]
 ) -> None:
-    same = np.arange(len(pair.source_samples))
-    gaps = [pair.gap(images, same) for images in found]
+    gaps = [pair.gap(images, same(pair)) for images in found]
     assert min(gaps[:2]) < 0.02
 
 
@@ -59,16 +63,14 @@ def test_fewer_maps_are_the_first_of_more(pair: SampledPair, found: list[Index])
 def test_the_same_start_twice_is_one_map() -> None:
     view = surface(bumpy()).regular
     pair = SampledPair.of(view, view)
-    same = np.arange(len(pair.source_samples))
-    assert len(shortlist(pair, [lambda _: [same, same.copy()], lambda _: [same]], 5)) == 1
+    assert len(shortlist(pair, [lambda one: [same(one), same(one)], lambda one: [same(one)]], 5)) == 1
 
 
 def test_a_good_start_comes_before_a_bad_one() -> None:
     view = surface(bumpy()).regular
     pair = SampledPair.of(view, view)
-    same = np.arange(len(pair.source_samples))
-    maps = shortlist(pair, [lambda _: [np.zeros_like(same), np.roll(same, 40)], lambda _: [same]], 5)
-    assert np.array_equal(maps[0], same)
+    maps = shortlist(pair, [lambda one: [np.zeros_like(same(one)), np.roll(same(one), 40)], lambda one: [same(one)]], 5)
+    assert np.array_equal(maps[0], same(pair))
 
 
 def test_no_start_is_no_map() -> None:

@@ -12,7 +12,7 @@ import gmds
 from geodesics import CommuteTimeDistance, Distance, GeodesicDistance, Mesh, SurfacePoints, eigenpairs, scale_invariant
 from gmds.matching.given_distances import GivenDistances, placed_in_given
 from gmds.matching.pair import SurfacePair
-from gmds.matching.steps import views_of
+from gmds.matching.steps import rounds_of
 from gmds.mds.losses import Huber, LeastSquares, Loss, Minimax
 from gmds.shapes import truth
 from gmds.spectral.refinement import Refiner
@@ -28,9 +28,11 @@ def marched(mesh: Mesh) -> Distance:
 
 def test_maps_are_proposed_in_the_metric_given_and_in_that_of_space() -> None:
     pair = SurfacePair(surface(bumpy()), surface(bumpy()))
-    views, given = views_of(pair, invariant)
+    (views_of_given,), given = rounds_of(pair, invariant)
+    views = views_of_given()
     assert given is not None and views == [given.views, (pair.source.regular, pair.target.regular)]
-    views, given = views_of(pair, lambda mesh: CommuteTimeDistance(eigenpairs(mesh, 60)))
+    (views_of_given,), given = rounds_of(pair, lambda mesh: CommuteTimeDistance(eigenpairs(mesh, 60)))
+    views = views_of_given()
     assert given is not None and views == [given.views]  # that is the metric of space already
 
 

@@ -13,14 +13,16 @@ from numpy.typing import NDArray
 
 from geodesics import SurfacePoints
 from gmds import initialization
+from gmds.matching.effort import is_isometric
 from gmds.matching.pair import SurfacePair
-from gmds.matching.proposals import MAPS_PER_METRIC, SAME_MAP, Proposal, Start, proposals, rough_maps
+from gmds.matching.proposals import DECISIVE, MAPS_PER_METRIC, SAME_MAP, Proposal, Start, proposals, rough_maps
 from gmds.registration.deformable import DeformableMesh
 from gmds.registration.distinct import distinct
 from gmds.registration.register import assessed
 from gmds.registration.settings import SIMPLIFIED
 from gmds.spectral.sample_maps import SampledPair
 from gmds.surface.measured import measure
+from gmds.surface.view import View
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -37,9 +39,8 @@ def turned(name: str) -> tuple[SurfacePair, Index]:
 
 def found(pair: SurfacePair, starts: list[Start] = ALL) -> list[Proposal]:
     """All proposals in the metric of space, best first."""
-    return sorted(
-        proposals(pair, [(pair.source.regular, pair.target.regular)], starts), key=lambda p: p.neg_log_likelihood
-    )
+    views = [(pair.source.regular, pair.target.regular)]
+    return sorted(proposals(pair, [lambda: views], starts).maps, key=lambda p: p.neg_log_likelihood)
 
 
 @functools.cache
@@ -152,3 +153,35 @@ def test_proposals_do_not_depend_on_size_and_place() -> None:
     mesh = bumpy()
     one, other = (found(SurfacePair(surface(mesh), measure(shapes.moved(mesh, s, seed=2))))[:3] for s in (1e-6, 1e6))
     assert [p.neg_log_likelihood for p in one[1:]] == pytest.approx([p.neg_log_likelihood for p in other[1:]], abs=1e-6)
+
+
+def test_other_metrics_are_asked_where_that_of_space_does_not_decide() -> None:
+    pair, _ = turned("animal")
+    views = [(pair.source.regular, pair.target.regular)]
+    asked: list[str] = []
+
+    def of_curvature() -> list[tuple[View, View]]:
+        asked.append("curvature")
+        return []
+
+    found = proposals(pair, [lambda: views, of_curvature], ALL)
+    assert asked == ["curvature"] and not found.decided  # too few vertices to decide early
+    assert min(one.neg_log_likelihood for one in found.maps) < DECISIVE
+
+
+def test_a_decisive_map_of_a_closed_surface_ends_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("gmds.matching.proposals.FEWEST_DECIDED", 1)
+    pair, place = turned("animal")
+    views = [(pair.source.regular, pair.target.regular)]
+    found = proposals(pair, [lambda: views, lambda: pytest.fail("asked though decided")], ALL)
+    assert found.decided
+    assert off(pair, min(found.maps, key=lambda one: one.neg_log_likelihood), place) < 0.02
+    assert is_isometric(pair, found.maps)
+    several = replace(found.maps[0], registered=replace(found.maps[0].registered, y=grown(pair)))
+    assert not is_isometric(pair, [several])
+
+
+def grown(pair: SurfacePair) -> Array:
+    """Vertices of the simplified source, those of one half twice as far from the middle."""
+    place = pair.simplified[0].mesh.vertices
+    return np.asarray(place * np.where(place[:, :1] > 0, 2.0, 1.0))

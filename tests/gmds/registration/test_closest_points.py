@@ -40,6 +40,6 @@ def test_eigenfunctions_see_through_noise(surface: Surface) -> None:
 def test_point_constraints_weigh_each_surface_once(surface: Surface) -> None:
     deformable = DeformableMesh.of(surface)
     closest = ClosestPoints.of(deformable, deformable, deformable.mesh.vertices, RegistrationSettings())
-    weights, ends = closest.point_constraints(deformable, deformable)
+    weights, ends = closest.point_constraints(deformable)
     assert weights.sum() == pytest.approx(2)
     assert np.abs(ends - deformable.mesh.vertices).max() < 1e-6
