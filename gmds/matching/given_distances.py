@@ -19,8 +19,8 @@ from gmds.spectral.refinement import ROUNDS
 from gmds.surface.measured import Surface, view_of
 from gmds.surface.view import View
 
-# Times that samples are placed, from where the map that continues them has them: on development pairs the second time
-# lowers the error by a twentieth to a fifth, a third time does nothing (benchmarks/results/plain.md).
+# Times that samples are placed, from where the map that continues them has them: on a scaled development pair the
+# second time lowers the error by a twentieth, a third does nothing (benchmarks/results/notes.md, "Plain GMDS").
 TIMES = 2
 ITERATIONS = 30  # of the solver, each time; chosen with them
 SAME_MASS = 1e-3  # of the mean, by which the masses of two metrics differ at most that are one but for size: a bound

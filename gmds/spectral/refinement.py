@@ -31,8 +31,8 @@ GOALS = 2500
 STEP_GOALS = 1500  # target vertices between one number of eigenfunctions and the next ("Effort" there)
 PER_FUNCTION = 15  # samples that each eigenfunction is fitted to, at the least; set by hand
 # Eigenfunctions, at the most, that placed samples are continued with, samples for each of them, at the least, and the
-# weight of the map before as a share of theirs: on four development pairs a tenth keeps what samples do not cover, and
-# as much as all of it takes half of what they gain (benchmarks/results/plain.md).
+# weight of the map before as a share of theirs: on three development pairs a tenth keeps what samples do not cover, and
+# as much as all of it takes a quarter of what they gain (benchmarks/results/notes.md, "Plain GMDS").
 CONTINUED = 60
 PER_CONTINUED = 5
 KEPT = 0.1
