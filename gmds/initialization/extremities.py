@@ -17,6 +17,12 @@ BEST = 32  # assignments kept; set by hand
 RINGS = 3  # around a local maximum in which nothing is farther; set by hand
 LEAST_GAP = 0.3  # between extremities, of the largest distance from the centre; set by hand
 
+# Limbs are as many extremities whose mean squared distance to the rest is so many times that of the mean vertex: the
+# fourth of people, animals and hands of development pairs is at 2.4 and more, that of teeth, faces, brains and bones at
+# 2.1 and less (benchmarks/results/notes.md, "Shapes without limbs").
+LIMBS = 4
+STANDS_OUT = 2.25
+
 
 def extremities(pair: SampledPair) -> list[Integers]:
     """Sample maps by trilateration from assigned extremities, for the 32 assignments that distort distances least.
@@ -52,6 +58,13 @@ def trilaterated(pair: SampledPair, ours: Integers, theirs: Integers) -> Integer
     """Each sample goes where its distances to the vertices `ours` (l,) are those to `theirs` (l,) on the target."""
     queries = _distances(pair.source, pair.source_samples, ours)
     return nearest_rows(queries, _distances(pair.target, pair.target_samples, theirs))
+
+
+def has_limbs(view: View) -> bool:
+    """Whether four extremities or more stand out from the surface: heads and legs do, the cusps of a tooth do not."""
+    far, mass = (view.commute_time_embedding**2).sum(axis=1), view.spectrum.mass
+    tips = far[surface_extremities(view)] * mass.sum()
+    return bool((tips > STANDS_OUT * (mass @ far)).sum() >= LIMBS)
 
 
 def surface_extremities(view: View) -> Integers:

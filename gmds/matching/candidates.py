@@ -29,7 +29,10 @@ ITERATIONS = 20  # of the solver, at the most: with as many the figures of notes
 
 @dataclass(frozen=True, eq=False)
 class MapCandidate:
-    """A map to `points` (n,) of the target, whose samples `solve` placed in the `views` of both surfaces."""
+    """A map to `points` (n,) of the target, whose samples `solve` placed in the `views` of both surfaces.
+
+    `laid`: the source on the target once more, as it lies in space, if that is the better answer.
+    """
 
     pair: SurfacePair
     points: SurfacePoints
@@ -37,6 +40,17 @@ class MapCandidate:
     solution: Solution
     deformation: Registered
     evidence: Evidence
+    laid: Registered | None = None
+
+    @property
+    def answer(self) -> SurfacePoints:
+        """Where vertices (n,) go in the end."""
+        return self.points if self.laid is None else self.laid.points
+
+    @property
+    def final(self) -> Registered:
+        """The source where it lies in the end."""
+        return self.deformation if self.laid is None else self.laid
 
 
 def make_candidate(
@@ -128,4 +142,4 @@ def mirrored(best: MapCandidate) -> list[MapCandidate]:
     deformation = assessed(*pair.full, points.positions, FULL)
     simplified = Proposal.of(pair, points.positions[pair.simplified[0].origin]).residuals
     weighed = evidence(pair, best.views, points, simplified, deformation.residuals)
-    return [replace(best, points=points, deformation=deformation, evidence=weighed)]
+    return [replace(best, points=points, deformation=deformation, evidence=weighed, laid=None)]

@@ -15,6 +15,7 @@ from geodesics.topology.edges import edges
 from gmds.correspondence import Correspondence
 from gmds.maps.images import preimage
 from gmds.maps.point_map import Candidate, MatchStatus
+from gmds.matching.laying import laid
 from gmds.matching.overlaps import overlap_candidates
 from gmds.matching.pair import SurfacePair
 from gmds.matching.parts import PartCandidate, part_candidates
@@ -129,7 +130,7 @@ def part_answer(candidates: Sequence[PartCandidate], part: Part, meta: Mapping[s
     `candidates` map the part to regions of the whole. Where the part is the target the map is turned round: a vertex of
     the source has a counterpart when it is in the region.
     """
-    best = candidates[0]
+    best = replace(candidates[0], candidate=laid(candidates[0].candidate))
     margin = margin_of([one.rank for one in candidates], [one.images.positions for one in candidates])
     forward = _rated(_forward(best, MatchStatus.UNRATED, meta), best, margin)
     evidence = {**best.candidate.evidence.as_meta(), "margin": min(margin, MARGIN_OF_THE_ONLY)}

@@ -73,7 +73,7 @@ def contenders(placed: Sequence[MapCandidate]) -> list[MapCandidate]:
 
 def original_points(candidate: MapCandidate) -> SurfacePoints:
     """The points on the original target; vertices that were left out go where the nearest one that was not went."""
-    source, target, points = candidate.pair.source, candidate.pair.target, candidate.points
+    source, target, points = candidate.pair.source, candidate.pair.target, candidate.answer
     used = source.regular.usable
     row = np.arange(source.mesh.n_vertices)
     if len(used) < len(row):
@@ -87,12 +87,12 @@ def _valid(candidate: MapCandidate) -> Bools:
     A vertex does when it is off the target and the boundary is hardly farther from it than the target is; so does a
     region (`REGION_TIME`) when most of it does.
     """
-    (source, target), y = candidate.pair.full, candidate.deformation.y
+    (source, target), y = candidate.pair.full, candidate.final.y
     used = source.areas > 0
     edge = np.flatnonzero(target.boundary)
     if len(edge) == 0:
         return np.asarray(used, dtype=np.bool_)
-    gap = np.linalg.norm(y - candidate.points.positions, axis=1)
+    gap = np.linalg.norm(y - candidate.answer.positions, axis=1)
     to_edge = cKDTree(target.mesh.vertices[edge]).query(y)[0]
     spacing = np.sqrt(np.median(target.areas[target.usable]))
     beyond = (gap > OFF_SURFACE * spacing) & (to_edge < TO_BOUNDARY * gap)
@@ -103,7 +103,7 @@ def _valid(candidate: MapCandidate) -> Bools:
 def distortion_of(candidate: MapCandidate) -> Floats:
     """By what share, in [0, 1], lengths around a vertex change (n,), see `gmds.maps.distortion`; 1 where no map is."""
     source = candidate.pair.full[0]
-    change = edge_distortion(source.mesh, candidate.points.positions)
+    change = edge_distortion(source.mesh, candidate.answer.positions)
     result = source.laplacian.heat_step(DISTORTION_TIME)(source.areas * change)
     result[source.areas <= 0] = 1.0
     return np.asarray(np.clip(result, 0.0, 1.0), dtype=np.float64)

@@ -12,6 +12,7 @@ from gmds import initialization
 from gmds.initialization.from_landmarks import landmarks as from_landmarks
 from gmds.matching.candidates import MapCandidate, make_candidate
 from gmds.matching.given_distances import GivenDistances
+from gmds.matching.laying import laid
 from gmds.matching.pair import SurfacePair
 from gmds.matching.polishing import polished
 from gmds.matching.proposals import Proposal, Start, Views
@@ -79,13 +80,16 @@ def embedded(
 
 
 def registered(candidates: Sequence[MapCandidate], report: Report) -> list[MapCandidate]:
-    """The candidates, the most likely first, after the one or two that contend to be the answer were polished."""
+    """The candidates, the most likely first, after the one or two that contend to be the answer were polished.
+
+    The first is laid on the target anew where that keeps its shape.
+    """
     report("refining", 0.7)
     rivals = contenders(candidates)
     refining = functools.partial(_refining, report)
     done = side_by_side(lambda one: polished(one, refining if one is rivals[0] else None), rivals)
     ranked = sorted(done, key=lambda candidate: candidate.evidence.neg_log_likelihood)
-    return ranked + [candidate for candidate in candidates if candidate not in rivals]
+    return [laid(ranked[0]), *ranked[1:], *(candidate for candidate in candidates if candidate not in rivals)]
 
 
 def _refining(report: Report, share: float) -> None:

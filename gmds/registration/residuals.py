@@ -34,9 +34,20 @@ class Residuals:
         back, which is large where parts of it are left out; the unexplained part sqrt(1 - r^2) of the curvature, both
         ways, which distinguishes the chest from the back.
         """
-        unexplained = [np.sqrt(1 - np.clip(r, 0.0, 1.0) ** 2) for r in (self.curvature, self.curvature_back)]
-        spreads = (np.sqrt(self.energy), self.misfit_back, *unexplained)
+        spreads = (np.sqrt(self.energy), *self._of_the_fit)
         return float(sum(np.log(max(spread, LEAST)) for spread in spreads)) + self.landmarks
+
+    @property
+    def unexplained(self) -> float:
+        """The part of it that misfit and curvature account for, whatever the energy that was deformed against."""
+        return float(sum(np.log(max(spread, LEAST)) for spread in self._of_the_fit))
+
+    @property
+    def _of_the_fit(self) -> tuple[float, ...]:
+        return (
+            self.misfit_back,
+            *(np.sqrt(1 - np.clip(r, 0.0, 1.0) ** 2) for r in (self.curvature, self.curvature_back)),
+        )
 
     @property
     def is_congruence(self) -> bool:

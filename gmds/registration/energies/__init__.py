@@ -3,9 +3,10 @@
 from gmds.registration.energies.as_rigid_as_possible import AsRigidAsPossible
 from gmds.registration.energies.as_similar_as_possible import AsSimilarAsPossible
 from gmds.registration.energies.base import Energy, EnergyKind, LocalGlobalEnergy
+from gmds.registration.energies.nearly_affine import NearlyAffine
 from gmds.registration.energies.thin_shell import ThinShell
 
-ALL = (AsRigidAsPossible, AsSimilarAsPossible, ThinShell)
+ALL = (AsRigidAsPossible, AsSimilarAsPossible, NearlyAffine, ThinShell)
 """Every energy, each to be made of a `CotangentLaplacian` alone; the tests of energies run on all of them."""
 
 __all__ = [
@@ -15,5 +16,6 @@ __all__ = [
     "Energy",
     "EnergyKind",
     "LocalGlobalEnergy",
+    "NearlyAffine",
     "ThinShell",
 ]

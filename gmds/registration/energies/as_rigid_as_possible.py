@@ -18,6 +18,7 @@ class AsRigidAsPossible(LocalGlobalEnergy):
     See Also
     --------
     AsSimilarAsPossible : Parts may change size.
+    NearlyAffine : Nothing may turn by itself.
     ThinShell : Nothing may, and bending costs as well.
     """
 

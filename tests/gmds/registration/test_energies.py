@@ -14,7 +14,15 @@ from scipy.spatial.transform import Rotation
 
 from geodesics import Mesh, embedded, stiffness
 from geodesics.one_ring import one_ring_areas
-from gmds.registration.energies import ALL, AsRigidAsPossible, AsSimilarAsPossible, Energy, EnergyKind, ThinShell
+from gmds.registration.energies import (
+    ALL,
+    AsRigidAsPossible,
+    AsSimilarAsPossible,
+    Energy,
+    EnergyKind,
+    NearlyAffine,
+    ThinShell,
+)
 from gmds.registration.energies.as_similar_as_possible import DOUBT, LARGEST
 from gmds.registration.energies.base import LocalGlobalEnergy
 from gmds.registration.laplacian import CotangentLaplacian
@@ -202,6 +210,22 @@ def test_another_size_costs_nothing_or_the_doubt_or_all_of_it(name: str, scale: 
     assert total(rigid, y) < ROUNDING * (1 + scale**2)
     assert total(similar, y) == pytest.approx(size * (scale - shrunk(scale)) ** 2, rel=1e-6, abs=1e-9)
     assert total(shell, y) == pytest.approx(shell.rest_spread.sum() * (scale - 1) ** 2, rel=1e-6)
+
+
+@every_mesh
+def test_affine_maps_cost_nothing_against_the_nearly_affine_energy_and_the_rest_its_dirichlet_energy(name: str) -> None:
+    energy, x = NearlyAffine(laplacian(name)), rest(name)
+    matrix = TURN @ np.array([[1.3, 0.4, 0.0], [0.0, 0.7, -0.2], [0.1, 0.0, 1.0]])
+    y = x @ matrix.T + SHIFT
+    flat = np.linalg.matrix_rank(x - x[0], tol=1e-9) < 3  # of a disc B is known in its plane alone
+    assert flat or np.allclose(energy.local_step(y), matrix, atol=1e-7)
+    assert total(energy, y) < 1e-8
+    moved = shaken(name)
+    fitted = energy.local_step(moved)
+    for way in np.eye(9).reshape(9, 3, 3):
+        assert energy.value(moved, fitted + 1e-3 * way).sum() >= total(energy, moved) - 1e-12
+    naive = [w * ((moved[i] - moved[j] - fitted[i] @ (x[i] - x[j])) ** 2).sum() for i, j, w in edges(name)]
+    assert total(energy, moved) == pytest.approx(sum(naive))
 
 
 @pytest.mark.parametrize(("a", "b"), [(1.2, 1.0), (0.5, 2.0), (1.0, 1.0)])

@@ -17,7 +17,7 @@ from geodesics import Mesh
 from geodesics.closest import closest_on_triangles
 from gmds.deformations import bending, local_scaling
 from gmds.registration.deformable import DeformableMesh
-from gmds.registration.energies import ALL, AsRigidAsPossible, AsSimilarAsPossible, EnergyKind
+from gmds.registration.energies import ALL, AsRigidAsPossible, AsSimilarAsPossible, EnergyKind, NearlyAffine
 from gmds.registration.register import correlation, register
 from gmds.registration.residuals import LEAST, Residuals
 from gmds.registration.settings import FINE, RegistrationSettings, Stage
@@ -93,7 +93,7 @@ def test_a_copy_that_was_turned_or_bent_is_found_vertex_by_vertex(name: str, lea
     source, target, truth = deformed(name)
     found = register(source, target, noisy(truth, 0.05), RegistrationSettings(energy=energy))
     assert off(found.points.positions, truth) < least
-    assert found.residuals.energy < 0.1
+    assert found.residuals.energy < (0.3 if energy is NearlyAffine else 0.1)  # against which bending costs as well
     assert found.residuals.misfit < 4e-3
 
 
