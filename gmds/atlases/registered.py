@@ -127,6 +127,13 @@ class Atlas:
         points = SurfacePoints.closest(Mesh(self.positions[i], self.faces), positions)
         return SurfacePoints(Mesh(self.positions[j], self.faces), points.face, points.barycentric).positions
 
+    def at(self, points: SurfacePoints) -> tuple[Floats, Bools]:
+        """Where points (p,) of the common triangulation are on each specimen (k, p, 3), and whether they are (k, p)."""
+        corners, weights = self.faces[points.face], points.barycentric
+        places = np.einsum("pc,kpcd->kpd", weights, self.positions[:, corners])
+        there = (self.valid[:, corners] | (weights <= 0)).all(axis=2)
+        return places, np.asarray(there, dtype=np.bool_)
+
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write a .npz that numpy alone reads, atomically."""
         names = {key: np.array(getattr(self, key), dtype=np.str_) for key in ("names", "status", "templates")}

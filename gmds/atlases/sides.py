@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
-from geodesics.arrays import Bools, Floats
+from geodesics.arrays import Bools, Floats, Integers
+from geodesics.errors import BadArgument
 from gmds.atlases.registered import MIRROR
 from gmds.morphometrics.procrustes import fitted
 
@@ -27,3 +29,23 @@ def moved(before: Floats, after: Floats) -> float:
     """How far a mean shape moved, over its centroid size."""
     move = fitted(after, before, np.ones(len(before), dtype=bool))
     return float(np.linalg.norm(move(after) - before) / np.linalg.norm(before - before.mean(axis=0)))
+
+
+def side_pairs(individuals: NDArray[np.str_], sides: NDArray[np.str_]) -> tuple[list[str], Integers, Integers]:
+    """Individuals of which there is one specimen of each of two sides, and the numbers of both.
+
+    Raises `BadArgument` (E604) when there are other than two sides, or no pair.
+    """
+    kinds = sorted(set(sides.tolist()))
+    if len(kinds) != 2:
+        raise BadArgument(f"there must be two sides, not {', '.join(kinds)}")
+    names, one, other = [], [], []
+    for name in sorted(set(individuals.tolist())):
+        rows = [np.flatnonzero((individuals == name) & (sides == kind)) for kind in kinds]
+        if all(len(row) == 1 for row in rows):
+            names.append(name)
+            one.append(int(rows[0][0]))
+            other.append(int(rows[1][0]))
+    if not names:
+        raise BadArgument("there is no individual with one specimen of each side")
+    return names, np.array(one), np.array(other)

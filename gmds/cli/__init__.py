@@ -12,7 +12,8 @@ main = LazyGroup(
     sections={
         "Match": ("demo", "match", "batch"),
         "Use and judge maps": ("view", "landmarks", "transfer", "export", "evaluate", "benchmark"),
-        "Collections of shapes": ("compare", "retrieve", "atlas", "model"),
+        "Collections of shapes": ("compare", "retrieve"),
+        "From a folder to a study": ("atlas", "model", "groups", "asymmetry", "pseudolandmarks"),
         "One surface": ("check", "repair", "symmetry", "distances", "voronoi", "signatures", "deform"),
         "This installation": ("doctor", "warmup", "completion"),
     },

@@ -160,3 +160,29 @@ def test_the_majority_is_heeded_and_doubt_is_told() -> None:
     assert np.abs(voted.places - mesh.vertices).max() < 0.01 * np.sqrt(mesh.area)
     assert voted.spread.mean() > 0.05 and fused([right, right, right]).spread.max() < 1e-9
     assert np.isnan(fused([right]).spread).all()
+
+
+def test_groups_asymmetry_and_points_on_the_command_line(
+    made: tuple[Path, Result], client: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    atlas = made[0] / "atlas.npz"
+    (tmp_path / "t.csv").write_text("name,legs\na,0.8\nb,1\nc,1.25\n")
+    groups = run(client, monkeypatch, "groups", atlas, "--table", tmp_path / "t.csv", "--column", "legs", "-o", tmp_path / "g", "--json")  # fmt: skip # noqa: E501
+    assert groups.exit_code == 0, groups.output
+    assert json.loads(groups.stdout)["growth"]["r_squared"] > 0.8
+    with (tmp_path / "g" / "points.csv").open() as stream:
+        slope = np.array([float(row["slope"] or "nan") for row in csv.DictReader(stream)])
+    legs = animals()[json.loads(made[1].stdout)["template"]].rest[:, 2] < 0.5
+    assert abs(np.median(slope[legs]) - 1) < 0.3  # the logarithm of length grows by about 1 a unit of scale
+    side = run(client, monkeypatch, "asymmetry", atlas, "-o", tmp_path / "s", "--json")
+    assert side.exit_code == 0, side.output
+    assert {p.name for p in (tmp_path / "s").iterdir()} == {
+        "asymmetry.csv",
+        "specimens.csv",
+        "asymmetry.png",
+        "mean.ply",
+    }
+    points = run(client, monkeypatch, "pseudolandmarks", atlas, "--count", 12, "--symmetric", "-o", tmp_path / "p.csv")
+    assert points.exit_code == 0 and "L1" in (tmp_path / "p.csv").read_text()
+    wrong = run(client, monkeypatch, "groups", atlas, "--table", tmp_path / "t.csv", "--column", "arms", "-o", tmp_path)
+    assert wrong.exit_code == 1 and "E235" in wrong.stderr

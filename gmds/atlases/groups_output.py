@@ -1,0 +1,36 @@
+"""The files of a test of groups or of a covariate."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from geodesics import Mesh
+from gmds.files.table import write_table
+from gmds.morphometrics.group_tests import PointTests, ShapeTest
+
+DISCOVERY = 0.05  # rate of false discoveries, below which a point is one: a convention
+
+
+def write_tests(tests: Mapping[str, ShapeTest], points: PointTests | None, mean: Mesh, folder: Path) -> None:
+    """Write test.csv, and for two groups or a covariate points.csv and points.png, each atomically.
+
+    Raises `MissingExtra` (E602) without the extra `viz`, `OSError`.
+    """
+    from gmds.pictures.panels import write_values
+
+    folder.mkdir(parents=True, exist_ok=True)
+    rows = ([name, one.r_squared, one.f, one.p, one.permutations] for name, one in tests.items())
+    write_table(folder / "test.csv", ["what", "r_squared", "f", "p", "permutations"], rows)
+    if points is None:
+        return
+    columns = np.column_stack([points.slope, points.low, points.high, points.p, points.q]).tolist()
+    table = ([i, *(x if x == x else None for x in row)] for i, row in enumerate(columns))
+    write_table(folder / "points.csv", ["vertex", "slope", "low", "high", "p", "q"], table)
+    found = np.where(points.q < DISCOVERY, points.slope, np.nan)
+    shown = [("slope of growth", mean, points.slope)]
+    if np.isfinite(found).any():
+        shown.append((f"where q < {DISCOVERY}", mean, found))
+    write_values(folder / "points.png", shown, pixels=460, title="Growth, as a logarithm")

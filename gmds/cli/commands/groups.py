@@ -1,0 +1,70 @@
+"""gmds groups: whether the specimens of an atlas differ between groups, or with a covariate."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from gmds.cli.group import Command
+from gmds.cli.output import emit, json_option, seed_option
+
+PATH = click.Path(path_type=Path)
+
+
+@click.command(cls=Command, short_help="Test whether specimens differ between groups or with a covariate.")
+@click.argument("atlas_file", metavar="ATLAS", type=PATH)
+@click.option("--table", type=PATH, help="A .csv with a row a specimen; its titles name groups and covariates.")
+@click.option("--column", default="group", show_default=True, help="Which column; `size` is the centroid size.")
+@click.option("-o", "--output", default="groups", show_default=True, type=PATH, help="Folder.")
+@click.option("--permutations", default=999, show_default=True, type=click.IntRange(min=1), help="Of the test.")
+@seed_option
+@json_option
+def command(
+    atlas_file: Path, table: Path | None, column: str, output: Path, permutations: int, seed: int, as_json: bool
+) -> None:
+    """Test whether shape and growth in ATLAS, an atlas.npz, differ between groups, or go with a covariate.
+
+    \b
+      gmds groups atlas/atlas.npz --column size --permutations 99 -o allometry
+
+    A column of words makes groups, one of numbers is a covariate. Shape: Procrustes ANOVA of the superimposed
+    specimens. Growth: how much lengths around each vertex differ from those of the mean, as a logarithm, whatever the
+    pose; its regression on the logarithm of the centroid size (`--column size`) is allometry.
+
+    \b
+    The output folder holds
+      test.csv    shape and growth: share of the variation that is explained, F, p by permutation
+      points.csv  a row a vertex: slope of growth (for two groups, how much longer it is in the second, as a
+                  logarithm), its 95 % limits, p, and q, the rate of false discoveries
+      points.png  the slope, and where q is below 0.05, on the mean shape
+    """
+    import numpy as np
+
+    from gmds.atlases.groups_output import write_tests
+    from gmds.atlases.registered import Atlas
+    from gmds.morphometrics.group_tests import design, point_tests, shape_test
+    from gmds.morphometrics.specimen_tables import read_column
+
+    if table is None and column != "size":
+        raise click.UsageError("--column names a column of --table; or give --column size")
+    atlas = Atlas.load(atlas_file)
+    laid = atlas.superposition
+    values: Any = np.log(laid.sizes) if table is None else read_column(table, column, atlas.names)
+    columns, growth = design(values), atlas.growth
+    whole = np.isfinite(growth).all(axis=0)
+    wanted = {"permutations": permutations, "rng": seed}
+    tests = {
+        "shape": shape_test(laid.aligned, columns, **wanted),
+        "growth": shape_test(growth[:, whole], columns, **wanted),
+    }
+    points = point_tests(growth, columns[:, 0]) if columns.shape[1] == 1 else None
+    write_tests(tests, points, atlas.mean, output)
+    found = {name: {"r_squared": one.r_squared, "f": one.f, "p": one.p} for name, one in tests.items()}
+    known = 0 if points is None else int((points.q < 0.05).sum())
+    groups = None if np.asarray(values).dtype.kind == "f" else sorted(set(np.asarray(values).tolist()))
+    emit(
+        {"folder": str(output), "specimens": len(atlas.names), "groups": groups, **found, "points_found": known},
+        as_json,
+    )

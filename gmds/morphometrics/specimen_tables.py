@@ -1,0 +1,88 @@
+"""Tables about specimens: groups and covariates read, coordinates of points written as other programs read them."""
+
+from __future__ import annotations
+
+import csv
+import itertools
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geodesics.arrays import Bools, Floats
+from geodesics.io import atomic_write
+from geodesics.io.opening import recoded
+from gmds.errors import BadGroups
+from gmds.files.table import delimiter, plain_number, unguarded, write_table
+from gmds.suggestions import did_you_mean
+
+NAMES = ("name", "specimen", "id", "file")  # titles of the column that says which specimen a row is about
+MISSING = "NA"  # as R reads it
+
+
+def read_column(path: Path, column: str, names: Sequence[str]) -> NDArray[np.generic]:
+    """What a table says of each specimen (k,) in one column: float64 where all are numbers, else words.
+
+    The table has titles; specimens are in a column `name`, `specimen`, `id` or `file`, or else the first, with or
+    without the ending of their files. Raises `BadGroups` (E235) naming a column or specimen that is not there,
+    `OSError`.
+    """
+    try:
+        text = recoded(path.read_bytes()).decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise BadGroups(f"{path} is not UTF-8 text ({error})") from error
+    lines = text.splitlines()
+    rows = [row for row in csv.reader(lines, delimiter=delimiter(lines[0] if lines else "")) if any(row)]
+    if len(rows) < 2:
+        raise BadGroups(f"{path} has no rows below its titles")
+    titles = [unguarded(one).strip() for one in rows[0]]
+    if column not in titles:
+        raise BadGroups(f"{path} has no column {column!r}{did_you_mean(column, titles)}")
+    key = next((i for i, title in enumerate(titles) if title.lower() in NAMES), 0)
+    at = titles.index(column)
+    said: dict[str, str] = {}
+    for number, row in enumerate(rows[1:], start=2):
+        if len(row) <= max(key, at):
+            raise BadGroups(f"{path}, row {number}: {len(row)} cells where there are {len(titles)} titles")
+        said[unguarded(row[key]).strip()] = unguarded(row[at]).strip()
+    by_stem = {Path(name).stem: value for name, value in said.items()} | said
+    absent = [name for name in names if not by_stem.get(name)]
+    if absent:
+        raise BadGroups(f"{path} says nothing of {absent[0]} under {column} ({len(absent)} such specimens)")
+    words = [by_stem[name] for name in names]
+    try:
+        return np.array([float(plain_number(word)) for word in words])
+    except ValueError:
+        return np.array(words, dtype=np.str_)
+
+
+def write_points(path: Path, names: Sequence[str], points: Sequence[str], places: Floats, valid: Bools) -> None:
+    """Points (k, p, 3) of k specimens, in the form that the ending says; missing ones are NA.
+
+    .csv: a row a point (specimen, name, x, y, z). .wide.csv: a row a specimen (name, then P1.x, P1.y, P1.z, ...), as
+    geomorph's `arrayspecs`, Morpho and ktch take it. .tps: a block a specimen, as geomorph's `readland.tps` reads it.
+    """
+    cells = [
+        [list(map(float, at)) if there else [MISSING] * 3 for at, there in zip(row, mask, strict=True)]
+        for row, mask in zip(places, valid, strict=True)
+    ]
+    if path.suffix.lower() == ".tps":
+        blocks = []
+        for name, row in zip(names, cells, strict=True):
+            lines = [" ".join(map(str, at)) for at in row]
+            blocks.append("\n".join([f"LM3={len(points)}", *lines, f"ID={name}"]))
+        with atomic_write(path) as stream:
+            stream.write(("\n".join(blocks) + "\n").encode("utf-8", "replace"))
+    elif path.name.lower().endswith(".wide.csv"):
+        titles = [f"{point}.{axis}" for point in points for axis in "xyz"]
+        write_table(
+            path, ["name", *titles], ([name, *itertools.chain(*row)] for name, row in zip(names, cells, strict=True))
+        )
+    else:
+        rows = (
+            [name, point, *at]
+            for name, row in zip(names, cells, strict=True)
+            for point, at in zip(points, row, strict=True)
+        )
+        write_table(path, ["specimen", "name", "x", "y", "z"], rows)

@@ -1,0 +1,83 @@
+"""Tests find what is there and, as often as they promise, nothing where nothing is."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from geodesics.errors import BadArgument, BadShape
+from gmds.errors import BadGroups
+from gmds.landmarks.files import read_specimens
+from gmds.morphometrics.group_tests import design, discoveries, point_tests, shape_test
+from gmds.morphometrics.specimen_tables import read_column, write_points
+
+RNG = np.random.default_rng(5)
+GROUPS = ["dog"] * 6 + ["wolf"] * 6
+
+
+def test_two_groups_that_differ_do_and_by_how_much() -> None:
+    shapes = RNG.normal(size=(12, 20, 3)) * 0.1
+    shapes[6:, 0] += 1
+    found = shape_test(shapes, design(GROUPS))
+    assert found.p <= 0.002 and found.r_squared > 0.5 and found.permutations == 999
+    assert found.p == shape_test(shapes, design(GROUPS)).p  # the same draws every time
+
+
+def test_of_one_number_it_is_the_analysis_of_variance() -> None:
+    y = RNG.normal(size=12)
+    found = shape_test(y[:, None], design(GROUPS), permutations=1)
+    assert np.isclose(found.f, stats.f_oneway(y[:6], y[6:]).statistic)
+    x = RNG.normal(size=12)
+    assert np.isclose(shape_test(y[:, None], design(x), permutations=1).r_squared, stats.linregress(x, y).rvalue ** 2)
+
+
+def test_where_nothing_differs_probabilities_are_even() -> None:
+    found = [shape_test(RNG.normal(size=(12, 4)), design(GROUPS), permutations=99, rng=i).p for i in range(60)]
+    assert stats.kstest(found, "uniform").pvalue > 0.01
+
+
+def test_points_are_regressions_and_discoveries_are_few() -> None:
+    x = RNG.normal(size=12)
+    values = RNG.normal(size=(12, 50))
+    values[:, 0] = 2 * x + 0.01 * RNG.normal(size=12)
+    values[3, 1] = np.nan
+    found = point_tests(values, x)
+    known = stats.linregress(np.delete(x, 3), np.delete(values[:, 1], 3))
+    assert np.isclose(found.slope[1], known.slope) and np.isclose(found.p[1], known.pvalue)
+    assert found.low[0] < 2 < found.high[0] and found.q[0] < 1e-6 and (found.q[1:] < 0.05).sum() <= 3
+    values[:, 2] = np.nan
+    assert np.isnan(point_tests(values, x).q[2]) and np.isnan(discoveries(np.array([np.nan]))).all()
+
+
+def test_tables_say_what_is_missing(tmp_path: Path) -> None:
+    (tmp_path / "t.csv").write_text("Name;species;mass\na.ply;dog;1,5\nb.ply;wolf;2\n")
+    assert read_column(tmp_path / "t.csv", "species", ["b", "a"]).tolist() == ["wolf", "dog"]
+    assert read_column(tmp_path / "t.csv", "mass", ["a", "b"]).tolist() == [1.5, 2.0]
+    with pytest.raises(BadGroups, match=r"no column 'specie'.*species"):
+        read_column(tmp_path / "t.csv", "specie", ["a"])
+    with pytest.raises(BadGroups, match="nothing of c"):
+        read_column(tmp_path / "t.csv", "mass", ["a", "c"])
+    (tmp_path / "e.csv").write_text("name\n")
+    with pytest.raises(BadGroups, match="no rows"):
+        read_column(tmp_path / "e.csv", "name", ["a"])
+    with pytest.raises(BadArgument, match="two groups"):
+        design(["a", "a"])
+    with pytest.raises(BadArgument, match="too few"):
+        shape_test(np.zeros((2, 3)), design(["a", "b"]))
+    with pytest.raises(BadShape, match="3 shapes and 2 rows"):
+        shape_test(np.zeros((3, 3)), design(["a", "b"]))
+
+
+@pytest.mark.parametrize("name", ["p.csv", "p.wide.csv", "p.tps"])
+def test_points_are_read_back_as_they_were_written(name: str, tmp_path: Path) -> None:
+    places = RNG.normal(size=(2, 5, 3))
+    valid = np.ones((2, 5), dtype=bool)
+    valid[1, 2] = False
+    write_points(tmp_path / name, ["one", "two"], [f"P{i}" for i in range(5)], places, valid)
+    read = read_specimens(tmp_path / name)
+    assert list(read) == ["one", "two"]
+    assert np.array_equal(read["one"].positions, places[0])
+    assert np.array_equal(read["two"].defined, valid[1])
