@@ -50,7 +50,7 @@ def study(out: Path, count: int = 12, n_vertices: int = 1500, client: Any = None
 
 def write_first_component(out: Path, atlas: gmds.Atlas, growth: np.ndarray) -> np.ndarray:
     """The scores (k,) of the first principal component of growth, which is drawn."""
-    deviations = np.nan_to_num(growth)
+    deviations = np.nan_to_num(growth)  # what a specimen lacks is as in the mean
     _, axes = principal_components(deviations - deviations.mean(axis=0), 2)
     scores = deviations @ axes[0]
     write_values(out / "growth.png", [("first component of growth", atlas.mean, axes[0] * scores.std())], pixels=460)

@@ -99,12 +99,13 @@ class Atlas:
     def growth(self) -> Floats:
         """By how much lengths grew from the mean of all specimens to each (k, n), as a logarithm (`gmds.maps.growth`).
 
-        From the first specimen to each, less the mean over specimens; NaN where either has no such point. Pose has
-        no part in it.
+        Beside the whole: of each specimen its median is taken away, so that size and units have no part in it; nor has
+        pose. From the first template to each, less the mean over specimens; NaN where either has no such point.
         """
-        first = Mesh(self.positions[0], self.faces)
-        grown = np.stack([growth_between(first, Mesh(place, self.faces)).length for place in self.positions])
-        grown[~(self.valid & self.valid[0])] = np.nan
+        first = self.names.index(self.templates[0]) if self.templates[0] in self.names else 0
+        before = Mesh(self.positions[first], self.faces)
+        grown = np.stack([growth_between(before, Mesh(place, self.faces)).relative for place in self.positions])
+        grown[~(self.valid & self.valid[first])] = np.nan
         known = np.isfinite(grown)
         return np.asarray(grown - np.where(known, grown, 0).sum(axis=0) / np.maximum(known.sum(axis=0), 1))
 

@@ -30,8 +30,8 @@ def command(
       gmds groups atlas/atlas.npz --column size --permutations 99 -o allometry
 
     A column of words makes groups, one of numbers is a covariate. Shape: Procrustes ANOVA of the superimposed
-    specimens. Growth: how much lengths around each vertex differ from those of the mean, as a logarithm, whatever the
-    pose; its regression on the logarithm of the centroid size (`--column size`) is allometry.
+    specimens. Growth: how much lengths around each vertex differ from those of the mean, beside the whole, as a
+    logarithm, whatever the pose; its regression on the logarithm of the centroid size (`--column size`) is allometry.
 
     \b
     The output folder holds
