@@ -15,7 +15,6 @@ from gmds.correspondence import Correspondence
 from gmds.landmarks.constraints import LandmarkConstraints
 from gmds.maps.point_map import Candidate, MatchStatus
 from gmds.matching.candidates import make_candidate
-from gmds.matching.effort import is_isometric
 from gmds.matching.given_distances import GivenDistances
 from gmds.matching.pair import SurfacePair
 from gmds.matching.part_answers import PartAnswer, Parts, likelier_part, maps_of_parts
@@ -78,7 +77,7 @@ class Attempt:
         pair = SurfacePair(source, image.of(target), wanted.landmarks, image.reverses)
         rounds, given = rounds_of(pair, wanted.distance)
         found = proposals(pair, rounds, starts_of(pair), lambda share: wanted.report("proposing", 0.2 + 0.3 * share))
-        pair = replace(pair, isometric=found.decided and is_isometric(pair, found.maps))
+        pair = replace(pair, isometric=found.isometric)
         return cls(image, pair, likely_maps(found.maps, pair.simplified[0].areas), given, wanted)
 
     @cached_property

@@ -13,6 +13,7 @@ from geodesics.arrays import Floats, Integers
 from geodesics.euclidean import euclidean_distances
 from geodesics.threads import side_by_side
 from gmds.initialization.shortlist import shortlist
+from gmds.matching.effort import keeps_sizes
 from gmds.matching.pair import SurfacePair
 from gmds.registration.deformable import DeformableMesh
 from gmds.registration.distinct import distinct
@@ -39,7 +40,7 @@ EMBEDDED = 3  # maps of a pair, at the most, whose samples are placed: each cost
 # by 0.05 (benchmarks/results/notes.md, "Speed of a match").
 SHORTFALL = 0.8
 # Below it a map in the metric of space of closed surfaces is right, or at least none of the other metrics is better:
-# of 78 of 216 pairs the error is below 6 (benchmarks/results/notes.md, "Effort").
+# of 62 of 216 pairs the error is at most 5.1 (benchmarks/results/notes.md, "Effort").
 DECISIVE = -10.5
 FEWEST_DECIDED = 2000  # vertices: with fewer the other metrics do find better maps ("Effort" there)
 
@@ -79,10 +80,10 @@ class Proposal:
 
 
 class Proposed(NamedTuple):
-    """The maps, and whether they were `decided` before the last round."""
+    """The maps, and whether they were decided before the last round: by an `isometric` one."""
 
     maps: list[Proposal]
-    decided: bool
+    isometric: bool
 
 
 def proposals(
@@ -97,7 +98,8 @@ def proposals(
     which shows when the simplified source is deformed: a surface cannot be turned inside out for little. The third
     that needs the least deformation to begin with is registered to the end, and `MOST_RETURNED` of these the way back.
 
-    The views of a round are not asked for where nothing can be missing and a map of those before is `DECISIVE`.
+    The views of a round are not asked for where nothing can be missing and the best map of those before is `DECISIVE`
+    and changes the size of no part.
     """
     source, target = pair.simplified
     begin, settle = SIMPLIFIED.with_stages(TO_IMAGES), SIMPLIFIED.with_stages(COARSE)
@@ -111,13 +113,16 @@ def proposals(
         cheap = _without_repeats(_cheapest(begun)[: max(LEAST_SETTLED, len(begun) // 3)], source)
         maps = done.of(_cheapest(there.of(cheap, parts[1]))[:MOST_RETURNED], parts[2])
         if number + 1 < len(rounds) and _decisive(pair, maps):
-            return Proposed(maps, decided=True)
-    return Proposed(maps, decided=False)
+            return Proposed(maps, isometric=True)
+    return Proposed(maps, isometric=False)
 
 
 def _decisive(pair: SurfacePair, maps: Sequence[Proposal]) -> bool:
     fewest = min(len(surface.regular.usable) for surface in (pair.source, pair.target))
-    return pair.closed and fewest >= FEWEST_DECIDED and min(one.neg_log_likelihood for one in maps) < DECISIVE
+    if not pair.closed or fewest < FEWEST_DECIDED:
+        return False
+    best = min(maps, key=lambda one: one.neg_log_likelihood)
+    return best.neg_log_likelihood < DECISIVE and keeps_sizes(pair.simplified[0], best.registered.y)
 
 
 class _Kept(Generic[T]):

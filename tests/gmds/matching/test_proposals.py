@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from geodesics import SurfacePoints
 from gmds import initialization
-from gmds.matching.effort import is_isometric
+from gmds.matching.effort import keeps_sizes
 from gmds.matching.pair import SurfacePair
 from gmds.matching.proposals import DECISIVE, MAPS_PER_METRIC, SAME_MAP, Proposal, Start, proposals, rough_maps
 from gmds.registration.deformable import DeformableMesh
@@ -165,7 +165,7 @@ def test_other_metrics_are_asked_where_that_of_space_does_not_decide() -> None:
         return []
 
     found = proposals(pair, [lambda: views, of_curvature], ALL)
-    assert asked == ["curvature"] and not found.decided  # too few vertices to decide early
+    assert asked == ["curvature"] and not found.isometric  # too few vertices to decide early
     assert min(one.neg_log_likelihood for one in found.maps) < DECISIVE
 
 
@@ -174,11 +174,11 @@ def test_a_decisive_map_of_a_closed_surface_ends_the_search(monkeypatch: pytest.
     pair, place = turned("animal")
     views = [(pair.source.regular, pair.target.regular)]
     found = proposals(pair, [lambda: views, lambda: pytest.fail("asked though decided")], ALL)
-    assert found.decided
+    assert found.isometric
     assert off(pair, min(found.maps, key=lambda one: one.neg_log_likelihood), place) < 0.02
-    assert is_isometric(pair, found.maps)
-    several = replace(found.maps[0], registered=replace(found.maps[0].registered, y=grown(pair)))
-    assert not is_isometric(pair, [several])
+    best = min(found.maps, key=lambda one: one.neg_log_likelihood)
+    assert keeps_sizes(pair.simplified[0], best.registered.y)
+    assert not keeps_sizes(pair.simplified[0], grown(pair))
 
 
 def grown(pair: SurfacePair) -> Array:
