@@ -3,12 +3,14 @@
     python -m benchmarks.cost.page_speed
 
 Built-in shapes mapped to themselves. Wall seconds until both surfaces are drawn, the start of the browser's process
-for the page among them, and what that process computed till then, which a busy machine changes less; milliseconds, medians of 20, from the
-pointer to its partner, and for a turn of both surfaces to be drawn. Writes results/page_speed.md.
+for the page among them, and what that process computed till then, which a busy machine changes less; milliseconds,
+medians of 20, from the pointer to its partner, and for a turn of both surfaces to be drawn. Writes
+results/page_speed.md, with the load of the machine.
 """
 
 from __future__ import annotations
 
+import os
 import tempfile
 import time
 from pathlib import Path
@@ -79,7 +81,8 @@ def main() -> None:
         "ms to the partner",
         "ms a turn",
     ]
-    text = ["# Speed of the page", "", "`python -m benchmarks.cost.page_speed`", "", *table(columns, rows)]
+    load = f"Load of the machine meanwhile: {os.getloadavg()[0]:.0f}, on {os.cpu_count()} processors."
+    text = ["# Speed of the page", "", "`python -m benchmarks.cost.page_speed`", "", load, "", *table(columns, rows)]
     (RESULTS / "page_speed.md").write_text("\n".join(text), encoding="utf-8")
     print(*text, sep="\n")
 
