@@ -30,7 +30,8 @@ class NearlyAffine(LocalGlobalEnergy):
 
     def local_step(self, y: Floats) -> Floats:
         """B, the same at every vertex (n, 3, 3)."""
-        x, lx = self.laplacian.mesh.vertices, self._rest[0]
+        x = self.laplacian.mesh.vertices
+        lx = self.laplacian.matrix @ x
         spread = x.T @ lx
         spread += FLAT * np.trace(spread) * np.eye(3)
         matrix = np.linalg.solve(spread, lx.T @ y).T
