@@ -159,7 +159,7 @@ def main() -> None:
             print(*new.values(), file=sys.stderr)
             rows.sort(key=lambda one: (order[one["pair"]], list(METHODS).index(one["method"])))
             write_table(path, COLUMNS, [[one[column] for column in COLUMNS] for one in rows])
-    text = "\n".join(page(rows, KINDS, list(METHODS), ALL_SEEN))
+    text = "\n".join(page(rows, KINDS, list(METHODS), ALL_SEEN, len(order)))
     (options.output / "limbless.md").write_text(text, encoding="utf-8")
     print(text)
 

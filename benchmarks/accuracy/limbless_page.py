@@ -29,11 +29,12 @@ def figure(rows: Rows, what: Callable[[Floats], float]) -> str:
     return f"{what(errors(rows)):.2f}" if rows else "-"
 
 
-def page(rows: Rows, kinds: Sequence[str], methods: Sequence[str], seen: Sequence[str]) -> list[str]:
+def page(rows: Rows, kinds: Sequence[str], methods: Sequence[str], seen: Sequence[str], total: int) -> list[str]:
     """All of it."""
     versions = sorted({f"{one['method']}: {one['version']}" for one in rows})
     lines = ["# Shapes without limbs", "", "`python -m benchmarks.accuracy.limbless`; the script says how.", ""]
     lines += [f"{', '.join(versions)}. A star: hyper-parameters were chosen, or all of its pairs looked at, there.", ""]
+    lines += [f"{len({one['pair'] for one in rows})} of {total} pairs have been run by one method or more so far.", ""]
     for half in ("reporting", "development"):
         of = [one for one in rows if one["half"] == half]
         lines += [f"## {half.capitalize()} half", "", *_errors(of, kinds, methods, seen)]
@@ -75,7 +76,8 @@ def _beaten(rows: Rows, kinds: Sequence[str], methods: Sequence[str]) -> list[st
     lines = []
     for kind in kinds:
         found, means = [], {}
-        of = [one for one in rows if one["kind"] == kind]
+        matched = {one["pair"] for one in rows if one["method"] == OURS}
+        of = [one for one in rows if one["kind"] == kind and one["pair"] in matched]
         for method in methods:
             own = [one for one in of if one["method"] == method]
             if own:
