@@ -58,5 +58,5 @@ def write_atlas_picture(path: Path, atlas: Atlas, mean: Mesh, varying: Floats) -
     far = np.argsort(atlas.superposition.distances)
     some = [int(far[i]) for i in np.linspace(0, len(far) - 1, min(SPECIMENS_SHOWN, len(far))).round().astype(int)]
     shown = [("mean shape: variation / √area", mean, varying)]
-    shown += [(atlas.names[i], Mesh(atlas.positions[i], atlas.faces), varying) for i in some]
+    shown += [(atlas.names[i], Mesh(atlas.configurations[i], atlas.faces), varying) for i in some]
     write_values(path, shown, pixels=420)
