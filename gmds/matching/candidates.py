@@ -120,9 +120,9 @@ def placed(
     return extend(source, target, *with_landmarks, common_functions(source, target)), solution
 
 
-def registered(pair: SurfacePair, points: SurfacePoints, settings: RegistrationSettings = FULL) -> Registered:
+def registered(pair: SurfacePair, points: SurfacePoints, settings: RegistrationSettings | None = None) -> Registered:
     """The source deformed from where the map to `points` (n,) sends it; left there if that is a congruence already."""
-    y = points.positions
+    y, settings = points.positions, settings or pair.settings
     same = assessed(*pair.full, y, settings)
     if same.residuals.is_congruence:
         return replace(same, points=points)

@@ -15,6 +15,7 @@ from gmds.initialization.reflection import mirror
 from gmds.landmarks.constraints import LandmarkConstraints, WeightedCorners
 from gmds.registration.anchors import Anchors
 from gmds.registration.deformable import DeformableMesh
+from gmds.registration.settings import FULL, ISOMETRIC, RegistrationSettings
 from gmds.spectral.refinement import Refiner
 from gmds.surface.measured import Surface
 
@@ -45,6 +46,11 @@ class SurfacePair:
     def full(self) -> tuple[DeformableMesh, DeformableMesh]:
         """Both surfaces with all their faces."""
         return self._anchored(full(self.source), full(self.target))
+
+    @property
+    def settings(self) -> RegistrationSettings:
+        """How the source is registered with all its faces."""
+        return ISOMETRIC if self.isometric else FULL
 
     @cached_property
     def closed(self) -> bool:

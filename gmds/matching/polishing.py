@@ -10,7 +10,7 @@ from gmds.matching.candidates import MapCandidate, registered
 from gmds.matching.evidence import evidence
 from gmds.matching.pair import SurfacePair
 from gmds.registration.register import Registered, both_ways, settled
-from gmds.registration.settings import FULL, REFINEMENT, SPECTRAL, RegistrationSettings
+from gmds.registration.settings import REFINEMENT, SPECTRAL, RegistrationSettings
 from gmds.spectral.refinement import ROUNDS, upsampled
 
 LATER_ROUNDS = tuple(range(1, len(ROUNDS)))  # of the alignment: the first is for rough maps
@@ -60,7 +60,7 @@ def refined(pair: SurfacePair, deformation: Registered) -> Registered:
         images, _ = pair.refiner.aligned(points.nearest_vertices(), LATER_ROUNDS)
         return registered(pair, SurfacePoints.at_vertices(pair.target.mesh, images), settings)
 
-    settings = FULL.with_stages(REFINEMENT)
+    settings = pair.settings.with_stages(REFINEMENT)
     way, trial = in_space if pair.isometric else keeping_area, in_space(deformation.points)
     if trial.residuals.cost < deformation.residuals.cost:
         way, deformation = in_space, trial
@@ -76,10 +76,10 @@ def refined(pair: SurfacePair, deformation: Registered) -> Registered:
 
 def with_eigenfunctions(pair: SurfacePair, deformation: Registered) -> tuple[Registered, RegistrationSettings]:
     """The map settled with eigenfunctions in the search for closest points, and so the settings, if that pays."""
-    spectral = replace(FULL, stages=SPECTRAL, views=(pair.source.regular, pair.target.regular))
+    spectral = replace(pair.settings, stages=SPECTRAL, views=(pair.source.regular, pair.target.regular))
     trial = settled(*pair.full, deformation.y, spectral)
     pays = trial.residuals.cost < (1 - SPECTRAL_GAIN) * deformation.residuals.cost
-    return (trial, spectral) if pays else (deformation, FULL)
+    return (trial, spectral) if pays else (deformation, pair.settings)
 
 
 def there_and_back(

@@ -103,6 +103,7 @@ def settled(source: DeformableMesh, target: DeformableMesh, y: Floats, settings:
     energy = source.energy(settings.energy)
     closest = None
     for stiffness_weight, steps in settings.stages:
+        closest = None if settings.restarts else closest
         for _ in range(steps):
             closest = ClosestPoints.of(source, target, y, settings, closest)
             weights, goals = closest.point_constraints(target)
