@@ -124,7 +124,9 @@ def _judged(route: Route, home: bool, load: Callable[[Pair], CarriedMap]) -> Cyc
         reached, goal, size = rows @ second.positions, last.positions[samples], second.size
         lost = np.zeros(len(second.valid))
     bad = rows @ ((lost > 0) | ~second.valid) > 0
-    fine = first.valid[samples] & ~bad & (home | last.valid[samples])
+    fine = first.valid[samples] & ~bad
+    if not home:  # else it starts on the third shape, and `lost` knows what it lacks
+        fine = fine & last.valid[samples]
     gap = np.linalg.norm(reached - goal, axis=1)[fine] / size
     if len(gap) == 0:
         return Cycle(route, home, 1.0, 0.0, 0.0)

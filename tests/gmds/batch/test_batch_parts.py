@@ -253,3 +253,15 @@ def test_of_many_triangles_some_are_drawn_the_same_every_time() -> None:
     found = consistency(many, lambda pair: one, most=30)
     assert 0 < len(found.cycles) <= 30
     assert [c.route for c in found.cycles] == [c.route for c in consistency(many, lambda pair: one, most=30).cycles]
+
+
+def test_cycles_of_shapes_with_other_numbers_of_vertices() -> None:
+    meshes = {name: bumpy_sphere(k) for name, k in (("a", 2), ("b", 1), ("c", 1))}
+
+    def load(pair: tuple[str, str]) -> CarriedMap:
+        source, target = (meshes[name] for name in pair)
+        points, n = SurfacePoints.closest(target, source.vertices), source.n_vertices
+        return CarriedMap.of(points, np.ones(n, dtype=bool), np.arange(n - 1, 0, -3), source.vertices)
+
+    found = consistency([(one, other) for one in "abc" for other in "abc" if one != other], load)
+    assert len(found.cycles) == 2 and found.mean is not None and found.mean < 0.1
