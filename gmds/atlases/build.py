@@ -46,7 +46,7 @@ def atlas(
         How many.
     rounds : int
         From the second on, the mean shape is matched to all specimens; rounds end when it moves no more.
-    mirror : names, or "auto"
+    mirror : sequence of str, str or "auto"
         Specimens of the other side, which are mirrored; "auto" finds out which.
     progress : callable, optional
         Called as `progress(stage, fraction)`.
