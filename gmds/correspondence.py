@@ -130,7 +130,7 @@ class Correspondence:
 
     @cached_property
     def growth(self) -> Floats:
-        """The log of the change of length around each vertex (n,), NaN where unknown (see `gmds.maps.growth`)."""
+        """The log change of length around each vertex (n,), in given units; NaN where unknown (`gmds.maps.growth`)."""
         return growth_of(self).length
 
     def vertex_map(self) -> Integers:
