@@ -170,5 +170,6 @@ def test_the_examples_of_every_command_run(among_files: Path) -> None:
     lines = examples_in_help()
     assert len(lines) > 25
     for line in lines:
-        if shlex.join(shlex.split(line)) not in RAN:  # on a page, a moment ago
+        # what ran on a page, a moment ago, runs here only where the next lines need what it writes
+        if line.startswith("gmds atlas meshes -o atlas ") or shlex.join(shlex.split(line)) not in RAN:
             run_line(line)
