@@ -1,6 +1,6 @@
 """An atlas against direct maps and maps composed through one template, on shapes whose truth is known.
 
-    GMDS_DATA=... python -m benchmarks.study.atlas MAPS [--sets FAUST,faces,endocasts] [--workers 1]
+    GMDS_DATA=... python -m benchmarks.study.atlas MAPS [--sets FAUST] [--workers 1]
 
 Sets: six people in six poses of FAUST, judged on eight ordered pairs; faces and endocasts of `anatomy/`, judged on the
 pairs of `pairs.json` (a specimen that is the source of one pair and, renumbered, the target of another is there twice).
