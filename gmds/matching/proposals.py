@@ -98,8 +98,8 @@ def proposals(
     which shows when the simplified source is deformed: a surface cannot be turned inside out for little. The third
     that needs the least deformation to begin with is registered to the end, and `MOST_RETURNED` of these the way back.
 
-    The views of a round are not asked for where nothing can be missing and the best map of those before is `DECISIVE`
-    and changes the size of no part.
+    The views of a round are not asked for where nothing can be missing and of those before one map alone is likely,
+    `DECISIVE`, and changes the size of no part.
     """
     source, target = pair.simplified
     begin, settle = SIMPLIFIED.with_stages(TO_IMAGES), SIMPLIFIED.with_stages(COARSE)
@@ -121,8 +121,9 @@ def _decisive(pair: SurfacePair, maps: Sequence[Proposal]) -> bool:
     fewest = min(len(surface.regular.usable) for surface in (pair.source, pair.target))
     if not pair.closed or fewest < FEWEST_DECIDED:
         return False
-    best = min(maps, key=lambda one: one.neg_log_likelihood)
-    return best.neg_log_likelihood < DECISIVE and keeps_sizes(pair.simplified[0], best.registered.y)
+    best, *rivals = likely_maps(maps, pair.simplified[0].areas)
+    alone = not rivals and best.neg_log_likelihood < DECISIVE
+    return alone and keeps_sizes(pair.simplified[0], best.registered.y)
 
 
 class _Kept(Generic[T]):
