@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from geodesics.arguments import real_numbers
 from geodesics.distance import as_points
-from geodesics.errors import BadShape, MissingExtra
+from geodesics.errors import BadArgument, BadShape, MissingExtra
 from geodesics.extras import how_to_install
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
@@ -54,6 +55,8 @@ def plot(
     ------
     MeshError
         E108 when there is not one value for each vertex; E105 for points that do not exist.
+    ValueError
+        For colours that are not from 0 to 1, and an `up` that is no direction.
     MissingExtra
         E602, without the extra `viz`.
 
@@ -76,10 +79,17 @@ def plot(
         marker = {"size": POINT_SIZE, "color": POINT_COLOUR}
         figure.add_scatter3d(**_axes(as_points(mesh, points).positions), mode="markers", marker=marker, name="points")
     hidden = {f"{axis}axis": {"visible": False} for axis in "xyz"}
-    camera = {"up": dict(zip("xyz", up, strict=True))}
+    camera = {"up": dict(zip("xyz", _direction(up), strict=True))}
     figure.update_layout(title=title, scene={"aspectmode": "data", "camera": camera, **hidden})
     figure.update_layout(margin={"l": 0, "r": 0, "t": 40 if title else 0, "b": 0}, showlegend=False)
     return figure
+
+
+def _direction(up: Any) -> list[float]:
+    found = real_numbers(up, "up")
+    if found.shape != (3,) or not np.isfinite(found).all() or not found.any():
+        raise BadArgument(f"up must be a direction of three numbers, as (0, 0, 1), not {up!r:.60}")
+    return [float(x) for x in found]
 
 
 def _axes(positions: Any) -> dict[str, Any]:
@@ -90,9 +100,11 @@ def _colours(values: ArrayLike | None, count: int) -> dict[str, Any]:
     """What tells plotly the colours of the vertices."""
     if values is None:
         return {"color": PLAIN}
-    v = np.asarray(values, dtype=np.float64)
+    v = real_numbers(values, "values")
     if v.shape == (count, 3):
-        return {"vertexcolor": [f"rgb({r:.0f},{g:.0f},{b:.0f})" for r, g, b in 255 * np.clip(v, 0, 1)]}
+        if not ((v >= 0) & (v <= 1)).all():
+            raise BadArgument("colours must be numbers from 0 to 1; divide those from 0 to 255 by 255")
+        return {"vertexcolor": [f"rgb({r:.0f},{g:.0f},{b:.0f})" for r, g, b in 255 * v]}
     if v.shape != (count,):
         raise BadShape(f"values must be {count} numbers, one for each vertex, or {count} colours, not shape {v.shape}")
     finite = v[np.isfinite(v)]

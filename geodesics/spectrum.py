@@ -11,9 +11,10 @@ import scipy.linalg
 import scipy.sparse as sp
 import scipy.sparse.linalg as sla
 
+from geodesics.arguments import whole_number
 from geodesics.arrays import Bools, Floats, Integers
 from geodesics.caching import memoized
-from geodesics.errors import BadArgument, EigensolverFailed
+from geodesics.errors import EigensolverFailed
 from geodesics.laplacian import lumped_mass, stiffness
 from geodesics.linalg.lanczos import smallest_eigenpairs
 from geodesics.mesh import Mesh
@@ -129,8 +130,7 @@ def eigenpairs(
     --------
     stiffness, lumped_mass, galerkin_mass : The matrices A and B.
     """
-    if count < 1:
-        raise BadArgument(f"count must be at least 1, not {count}")
+    count = whole_number(count, "count", 1)
     metric = as_metric(metric)
     area, n = metric.mass.sum(), metric.mesh.n_vertices
     free = np.flatnonzero(metric.mass > 0 if fixed is None else (metric.mass > 0) & ~fixed)

@@ -24,6 +24,7 @@ from gmds.morphometrics.procrustes import Superposition, superimposed
 from gmds.suggestions import did_you_mean
 
 MIRROR = np.array([-1.0, 1.0, 1.0])
+VERSION = 1  # of the file
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,7 +143,7 @@ class Atlas:
         arrays = {key: getattr(self, key) for key in ("faces", "positions", "valid", "mirrored", "spread", "gap")}
         rest = {"changes": np.array(self.changes, dtype=np.float64), "left_out": left_out.reshape(-1, 3)}
         with atomic_write(path) as stream:
-            np.savez(stream, format="gmds-atlas", version=1, mean=self.mean.vertices, **arrays, **names, **rest)  # type: ignore[arg-type]
+            np.savez(stream, format="gmds-atlas", version=VERSION, mean=self.mean.vertices, **arrays, **names, **rest)  # type: ignore[arg-type]
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Atlas:
@@ -154,7 +155,24 @@ class Atlas:
             failures = {str(name): Failure(str(code), str(why)) for name, code, why in read["left_out"]}
             members: dict[str, Any] = {**words, **arrays}
             found = cls(**members, changes=tuple(read["changes"].tolist()), failures=failures)
-            Mesh(found.positions[0], found.faces)
-        except (ValueError, KeyError, IndexError) as error:
+            _check(found, read)
+        except (ValueError, KeyError, IndexError, TypeError) as error:
             raise AtlasFileError(f"{path} is no atlas that `gmds atlas` wrote ({error})") from error
         return found
+
+
+def _check(atlas: Atlas, read: Mapping[str, Any]) -> None:
+    """Raises `ValueError` where the arrays of a file are none of an atlas, or do not belong together."""
+    if str(read["format"]) != "gmds-atlas" or int(read["version"]) > VERSION:
+        raise ValueError(f"its format is {read['format']}, version {read['version']}")
+    k, n = len(atlas.names), atlas.positions.shape[1]
+    shapes = {"positions": (k, n, 3), "valid": (k, n), "spread": (k, n), "mirrored": (k,), "gap": (k,)}
+    for name, shape in shapes.items():
+        kinds = "b" if name in ("valid", "mirrored") else "f"
+        array = getattr(atlas, name)
+        if array.shape != shape or array.dtype.kind not in kinds:
+            raise ValueError(f"{name} is {array.dtype} of shape {array.shape}, where {shape} is expected")
+    if k < 1 or len(atlas.status) != k:
+        raise ValueError(f"there are {k} names and {len(atlas.status)} statuses")
+    for place in atlas.positions:
+        Mesh(place, atlas.faces)

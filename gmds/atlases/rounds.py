@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from geodesics import Mesh
+from geodesics.caching import cached_property
 from gmds.atlases.fusion import Fused, fused, gap_of
 from gmds.atlases.registered import MIRROR, Atlas
 from gmds.atlases.sides import is_mirror, moved
@@ -39,6 +40,14 @@ class Rounds:
     rounds: int
     failures: dict[str, Failure] = field(default_factory=dict)
 
+    @cached_property
+    def mean(self) -> str:
+        """What the mean shape is called among specimens, one of which may have that name."""
+        name = MEAN
+        while name in self.shapes:
+            name += "-"
+        return name
+
     def done(self, template: str | None, count: int) -> Atlas:
         """The atlas after all rounds."""
         chosen = self._templates(template, count)
@@ -47,9 +56,9 @@ class Rounds:
         while len(changes) + 1 < self.rounds:
             number = len(changes) + 2
             before = found.mean
-            self.shapes[MEAN] = Shape(MEAN, before)
-            again = self._registered((MEAN,), f"maps-{number}", number)
-            del self.shapes[MEAN]
+            self.shapes[self.mean] = Shape(self.mean, before)
+            again = self._registered((self.mean,), f"maps-{number}", number)
+            del self.shapes[self.mean]
             changes.append(moved(before.vertices, again.mean.vertices))
             found = again
         return Atlas(**{**vars(found), "templates": chosen, "changes": tuple(changes), "failures": self.failures})
@@ -77,13 +86,10 @@ class Rounds:
         done = {(pair.source, pair.target): pair for pair in batch.pairs if pair.status not in WITHOUT_MAP}
         for pair in batch.failed:
             if pair.source == templates[0]:
-                name = (
-                    pair.source if pair.failure and pair.failure.reason.startswith(f"{pair.source}:") else pair.target
-                )
-                self.failures[name] = pair.failure or Failure("", "its turn never came")
+                self.failures[_culprit(pair)] = pair.failure or Failure("", "its turn never came")
         first, kept = templates[0], [name for name in self.shapes if (templates[0], name) in done]
-        names = sorted([*kept, *([] if first == MEAN else [first])])
-        if len(kept) < (2 if first == MEAN else 1):
+        names = sorted([*kept, *([] if first == self.mean else [first])])
+        if len(kept) < (2 if first == self.mean else 1):
             raise NoAtlas(f"no specimen can be matched with the template {first}; {_told(self.failures)}")
         meshes = {name: self._mesh(name) for name in (*templates,)}
         rows = []

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import os
-import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -14,9 +13,8 @@ from geodesics import Mesh, read_mesh
 from geodesics.errors import BadArgument
 from gmds.batch.pair_choice import Choice, Pairs, all_pairs
 from gmds.batch.pair_list import read_list
-from gmds.files.folders import mesh_files, shape_names
+from gmds.files.folders import mesh_files, plain_name, shape_names
 
-LONGEST_NAME = 100  # bytes of a name: two of them and a little more make the name of a file, which may have 255
 Given = str | os.PathLike[str] | Mapping[str, Mesh | str | os.PathLike[str]] | Sequence[str | os.PathLike[str]]
 
 
@@ -83,7 +81,7 @@ def names(paths: Sequence[Path]) -> list[str]:
 
     Never with two underscores in a row, so that A__B names one pair alone; nor the same but for capital letters.
     """
-    plain = [_plain(name) for name in shape_names(paths)]
+    plain = [plain_name(name) for name in shape_names(paths)]
     often = Counter(name.casefold() for name in plain)
     if max(often.values()) == 1:
         return plain
@@ -98,14 +96,9 @@ def _digest(text: str) -> str:
     return hashlib.sha256(text.encode("utf-8", "surrogateescape")).hexdigest()[:8]
 
 
-def _plain(text: str) -> str:
-    kept = re.sub(r"_{2,}", "_", re.sub(r"[^\w.-]", "_", text)).strip("_").lstrip(".-") or "shape"
-    return kept.encode("utf-8", "ignore")[:LONGEST_NAME].decode("utf-8", "ignore").strip("_")
-
-
 def _checked(name: str) -> str:
-    if name != _plain(name):
-        raise BadArgument(f"{name!r} cannot be part of the name of a file A__B.npz; {_plain(name)!r} could")
+    if name != plain_name(name):
+        raise BadArgument(f"{name!r} cannot be part of the name of a file A__B.npz; {plain_name(name)!r} could")
     return name
 
 

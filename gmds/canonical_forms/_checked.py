@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from geodesics.arguments import real_numbers
 from geodesics.arrays import Floats
 from geodesics.errors import BadArgument
 
@@ -13,7 +14,7 @@ ASYMMETRY = 1e-6  # of the largest distance, above which a matrix is not symmetr
 
 def square(distances: ArrayLike) -> Floats:
     """Distances as (p, p), symmetric to the last bit; `BadArgument` (E604) where they are not (p, p) or not finite."""
-    d = np.asarray(distances, dtype=np.float64)
+    d = real_numbers(distances, "distances")
     if d.ndim != 2 or d.shape[0] != d.shape[1] or len(d) < 2:
         raise BadArgument(f"distances must be a square matrix of two points at least, not of shape {d.shape}")
     if not np.isfinite(d).all() or (d < 0).any():
@@ -27,7 +28,7 @@ def known_weights(weights: ArrayLike | None, count: int) -> Floats:
     """Weights (p,) that sum to 1, equal ones for None."""
     if weights is None:
         return np.full(count, 1 / count)
-    w = np.asarray(weights, dtype=np.float64)
+    w = real_numbers(weights, "weights")
     if w.shape != (count,) or not np.isfinite(w).all() or not (w > 0).all():
         raise BadArgument(f"weights must be {count} positive numbers, one for each point")
     return w / w.sum()

@@ -12,15 +12,18 @@ from geodesics import (
     Distance,
     Mesh,
     Spectrum,
+    SurfacePoints,
     eigenpairs,
     embedded,
     farthest_point_sampling,
     voronoi_cells,
 )
+from geodesics.arguments import whole_number
 from geodesics.arrays import Floats, Integers
 from geodesics.distance import as_distance
 from geodesics.errors import BadArgument
 from geodesics.euclidean import euclidean_distances
+from gmds.canonical_forms._checked import known_weights
 from gmds.canonical_forms.classical import classical_scaling
 from gmds.canonical_forms.smacof import smacof, stress_of
 from gmds.canonical_forms.spectral import spectral_scaling, squared_distances_in_eigenfunctions
@@ -100,6 +103,8 @@ def canonical_form(
 
     Raises
     ------
+    MeshError
+        E105 to E107 for samples that are no vertices on a face.
     ValueError
         For samples that cannot reach each other, and arguments that cannot be.
 
@@ -115,8 +120,9 @@ def canonical_form(
     solve : Places a surface on another.
     """
     distance = as_distance(distance)
-    if method not in METHODS or dimension < 1:
-        raise BadArgument(f"method must be one of {METHODS} and dimension at least 1, not {method!r} and {dimension}")
+    if method not in METHODS:
+        raise BadArgument(f"method must be one of {METHODS}, not {method!r}")
+    dimension = whole_number(dimension, "dimension", 1)
     chosen = _samples(distance, samples)
     fields = distance.field(chosen)  # type: ignore[arg-type]
     d = 0.5 * (fields[:, chosen] + fields[:, chosen].T)
@@ -125,6 +131,8 @@ def canonical_form(
     w = _weights(distance, chosen, weights)
     if method == "spectral":
         spectrum = _spectrum(distance)
+        most = len(spectrum.eigenvalues) - 1
+        dimension = whole_number(dimension, "dimension", 1, most, "the eigenfunctions but for the constant one")
         positions = spectral_scaling(spectrum, squared_distances_in_eigenfunctions(spectrum, chosen, d), dimension)
     elif method == "classical":
         positions = _extended(fields, d, classical_scaling(d, dimension, w), w)
@@ -140,8 +148,12 @@ def canonical_form(
 def _samples(distance: Distance, samples: int | ArrayLike) -> Integers:
     if np.ndim(samples) == 0:
         most = len(np.unique(distance.mesh.faces))
-        return farthest_point_sampling(distance, min(int(samples), most))  # type: ignore[arg-type]
-    return np.asarray(samples, dtype=np.int64).reshape(-1)
+        return farthest_point_sampling(distance, min(whole_number(samples, "samples", 2), most))
+    places = SurfacePoints.at_vertices(distance.mesh, samples)  # raises E105 to E107
+    chosen = distance.mesh.faces[places.face, places.barycentric.argmax(axis=1)]
+    if len(chosen) < 2 or len(np.unique(chosen)) < len(chosen):
+        raise BadArgument(f"samples must be two different vertices at least, none given twice, not {samples!r:.60}")
+    return np.asarray(chosen, dtype=np.int64)
 
 
 def _weights(distance: Distance, chosen: Integers, weights: ArrayLike | str | None) -> Floats:
@@ -154,7 +166,7 @@ def _weights(distance: Distance, chosen: Integers, weights: ArrayLike | str | No
         cell = voronoi_cells(distance, chosen)
         share = np.bincount(cell[cell >= 0], mass[cell >= 0], len(chosen))
         return np.asarray(np.maximum(share, 1e-3 * share.mean()) / share.sum(), dtype=np.float64)
-    return np.asarray(weights, dtype=np.float64)
+    return known_weights(weights, len(chosen))
 
 
 def _spectrum(distance: Distance) -> Spectrum:

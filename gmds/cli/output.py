@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -23,11 +24,20 @@ seed_option = click.option("--seed", default=0, show_default=True, help="Seed of
 def emit(result: Mapping[str, Any], as_json: bool) -> None:
     """Print a result on stdout: JSON, or one `name: value` a line."""
     if as_json:
-        click.echo(json.dumps(result, indent=2, allow_nan=False))
+        click.echo(json.dumps(_finite(result), indent=2, allow_nan=False))
         return
     width = max((len(name) for name in result), default=0)
     for name, value in result.items():
         click.echo(f"{name + ':':<{width + 1}} {_plain(value)}")
+
+
+def _finite(value: Any) -> Any:
+    """The same with None, the null of JSON, for numbers that it has none for."""
+    if isinstance(value, Mapping):
+        return {name: _finite(item) for name, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def note(message: str) -> None:

@@ -45,6 +45,12 @@ class EndingIn(OutputFile):
         return path
 
 
+def refuse_same_folder(read: Path, output: Path, name: str) -> None:
+    """A usage error when a folder of outputs is one that is read, in which `name` would be lost or taken for input."""
+    if _identity(read) == _identity(output):
+        raise click.UsageError(f"-o {str(output)!r} is where input is read from, beside {name}; name another folder")
+
+
 def refuse_collisions(ctx: click.Context) -> None:
     """A usage error when two outputs are one file, or an output is a file that is read."""
     taken: dict[str, str] = {}

@@ -7,9 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from geodesics.arguments import real_numbers
 from geodesics.arrays import Floats, Integers
 from geodesics.errors import BadArgument
 
+ASYMMETRY = 1e-6  # of the largest distance, above which a matrix is not symmetric: a bound, far above rounding
+LARGEST = 1e100  # distance, whose square and sums of it stay within float64: a bound
 ROUNDS = 20  # in which points look for better partners, at the most: a bound, descents of 100 points take about five
 
 
@@ -53,7 +56,8 @@ def gromov_hausdorff_bounds(
     Raises
     ------
     ValueError
-        For matrices that are not square and finite.
+        For matrices that are not square, finite and symmetric, with zeros on the diagonal; for a start or a covering
+        that cannot be.
 
     References
     ----------
@@ -69,20 +73,37 @@ def gromov_hausdorff_bounds(
     a, b = finite_square(first), finite_square(second)
     gaps = local_gaps(a, b)
     lower = 0.5 * max(float(gaps.min(axis=1).max()), float(gaps.min(axis=0).max()))
-    there = gaps.argmin(axis=1) if start is None else np.asarray(start, dtype=np.int64)
-    if there.shape != (len(a),) or there.min() < 0 or there.max() >= len(b):
-        raise BadArgument(f"start must give each of {len(a)} samples a partner from 0 to {len(b) - 1}")
+    there = gaps.argmin(axis=1) if start is None else partners_given(start, len(a), len(b))
+    slack = _slack(covering)
     upper = 0.5 * _least_distortion(a, b, there, gaps.argmin(axis=0) if start is None else None)
-    slack = float(sum(covering))
     return Bounds(max(lower - slack, 0.0), upper + slack)
 
 
 def finite_square(distances: ArrayLike) -> Floats:
     """A matrix of distances (p, p); `BadArgument` (E604) where it is not."""
-    d = np.asarray(distances, dtype=np.float64)
+    d = real_numbers(distances, "distances")
     if d.ndim != 2 or d.shape[0] != d.shape[1] or len(d) == 0 or not np.isfinite(d).all():
         raise BadArgument(f"distances must be a square, finite matrix, not of shape {d.shape}")
+    if (d < 0).any() or d.max() > LARGEST:
+        raise BadArgument(f"distances must be from 0 to {LARGEST:g}, not {d.min():.3g} to {d.max():.3g}")
+    if np.abs(d - d.T).max() > ASYMMETRY * d.max() or np.diagonal(d).any():
+        raise BadArgument("distances must be symmetric, and 0 from a sample to itself, as of geodesics.distance_matrix")
     return d
+
+
+def partners_given(start: ArrayLike, count: int, others: int) -> Integers:
+    """The partner of each of `count` samples among `others` (count,); `BadArgument` (E604) where it is not that."""
+    given = real_numbers(start, "start")
+    if given.shape != (count,) or not np.isin(given, np.arange(others)).all():
+        raise BadArgument(f"start must give each of {count} samples a partner, a whole number from 0 to {others - 1}")
+    return given.astype(np.int64)
+
+
+def _slack(covering: tuple[float, float]) -> float:
+    reach = real_numbers(covering, "covering")
+    if reach.shape != (2,) or not np.isfinite(reach).all() or (reach < 0).any():
+        raise BadArgument(f"covering must be two distances, finite and not negative, not {covering!r:.60}")
+    return float(reach.sum())
 
 
 def local_gaps(a: Floats, b: Floats) -> Floats:

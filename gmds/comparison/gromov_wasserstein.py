@@ -9,7 +9,7 @@ from scipy.spatial.distance import cdist
 
 from geodesics.arrays import Floats, Integers
 from geodesics.errors import BadArgument
-from gmds.comparison.gromov_hausdorff import Bounds, finite_square
+from gmds.comparison.gromov_hausdorff import Bounds, finite_square, partners_given
 
 STEPS = 50  # conditional gradients, at the most: a bound, descents of 100 points take about ten
 ORDERS = (1, 2)  # a convention: means, and root mean squares
@@ -44,7 +44,7 @@ def gromov_wasserstein_bounds(
     Raises
     ------
     ValueError
-        For matrices of different sizes, or another order.
+        For matrices that are no distances or of different sizes, another order, or a start that is no permutation.
 
     References
     ----------
@@ -65,8 +65,10 @@ def gromov_wasserstein_bounds(
     second_bound = 0.5 * _power_mean(np.sort(a.ravel()), np.sort(b.ravel()), order)
     eccentricity = [np.sort((d**order).mean(axis=1) ** (1 / order)) for d in (a, b)]
     first_bound = 0.5 * _power_mean(eccentricity[0], eccentricity[1], order)
-    starts = [assigned[1]] if start is None else [np.asarray(start, dtype=np.int64)]
-    upper = min(0.5 * _cost(a, b, _descended(a, b, one, order), order) ** (1 / order) for one in starts)
+    begin = assigned[1] if start is None else partners_given(start, len(a), len(b))
+    if len(np.unique(begin)) < len(a):
+        raise BadArgument("start must be a permutation: each sample of the second is the partner of one of the first")
+    upper = 0.5 * _cost(a, b, _descended(a, b, begin, order), order) ** (1 / order)
     return Bounds(max(first_bound, second_bound, third), upper)
 
 

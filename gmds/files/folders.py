@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import re
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,6 +12,7 @@ from geodesics.errors import FormatError
 
 SUFFIXES = (".off", ".obj", ".ply", ".stl", ".glb", ".gltf", ".vtk", ".vtp", ".vtu", ".gii", ".vert")
 PACKED = ".gz"  # may follow any of them
+LONGEST_NAME = 100  # bytes of a name: two of them and a little more make the name of a file, which may have 255
 
 
 def mesh_files(folder: Path) -> list[Path]:
@@ -28,6 +30,12 @@ def shape_names(paths: Sequence[Path]) -> list[str]:
     stems = [_unpacked(path).stem for path in paths]
     often = Counter(stem.casefold() for stem in stems)
     return [stem if often[stem.casefold()] == 1 else path.name for stem, path in zip(stems, paths, strict=True)]
+
+
+def plain_name(text: str) -> str:
+    """A name that can stand in the name of a file A__B: no spaces, no two underscores in a row, not too long."""
+    kept = re.sub(r"_{2,}", "_", re.sub(r"[^\w.-]", "_", text)).strip("_").lstrip(".-") or "shape"
+    return kept.encode("utf-8", "ignore")[:LONGEST_NAME].decode("utf-8", "ignore").strip("_")
 
 
 def _unpacked(path: Path) -> Path:

@@ -6,6 +6,7 @@ import numpy as np
 
 from geodesics.arrays import Floats
 
+ALIKE = 1e-24  # share of the squares by which shapes differ that are one but for rounding: a bound, far above it
 LEAST_VARIANCE = 1e-14  # share of the whole, below which a component is rounding: a bound
 
 

@@ -16,6 +16,7 @@ from scipy import stats
 
 from geodesics.arrays import Floats
 from geodesics.errors import BadArgument, BadShape
+from gmds.morphometrics.components import ALIKE
 
 PERMUTATIONS = 999  # so that the least probability is 0.001: a convention
 
@@ -48,10 +49,13 @@ def design(values: Sequence[str] | ArrayLike) -> Floats:
     """Columns (k, c) that stand for groups (dummies, without the first) or for a covariate (one column)."""
     array = np.asarray(values)
     if array.dtype.kind in "fiu":
-        return np.asarray(array, dtype=np.float64)[:, None]
+        covariate = np.asarray(array, dtype=np.float64)
+        if covariate.ndim != 1 or not np.isfinite(covariate).all() or not np.ptp(covariate) > 0:
+            raise BadArgument("a covariate must be a finite number for each shape, and not the same for all")
+        return covariate[:, None]
     names = sorted(set(array.tolist()))
     if len(names) < 2:
-        raise BadArgument(f"there must be two groups or more, not {len(names)}")
+        raise BadArgument(f"there must be two groups or more, not {len(names)}{(names and f' ({names[0]})') or ''}")
     return np.stack([array == name for name in names[1:]], axis=1).astype(np.float64)
 
 
@@ -79,12 +83,14 @@ def shape_test(shapes: ArrayLike, columns: Floats, *, permutations: int = PERMUT
     BadShape
         E108 when there is not a row of the design for every shape.
     BadArgument
-        E604 when there are too few shapes.
+        E604 when there are too few shapes, or they are all the same.
     """
     y = np.asarray(shapes, dtype=np.float64)
     if len(y) != len(columns):
         raise BadShape(f"there are {len(y)} shapes and {len(columns)} rows")
     y = y.reshape(len(y), -1)
+    if not y.size or not np.isfinite(y).all() or not np.isfinite(columns).all():
+        raise BadArgument("a test takes finite numbers, one or more for each shape")
     k, c = columns.shape
     if k < c + 2:
         raise BadArgument(f"{k} shapes are too few for a test with {c + 1} parameters")
@@ -94,6 +100,8 @@ def shape_test(shapes: ArrayLike, columns: Floats, *, permutations: int = PERMUT
     basis = np.linalg.svd(x, full_matrices=False)
     q = basis[0][:, basis[1] > 1e-12 * max(basis[1][0], 1e-300)]
     total = float(np.trace(gram))
+    if not total > ALIKE * float((y**2).sum()):
+        raise BadArgument("the shapes are all the same, so there is nothing to test")
     explained = float(np.trace(q.T @ gram @ q))
     random = np.random.default_rng(rng)
     beaten = 1

@@ -10,13 +10,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geodesics import Mesh
+from geodesics.arguments import real_numbers, whole_number
 from geodesics.arrays import Bools, Floats, Integers
 from geodesics.errors import BadArgument, BadShape
 from geodesics.io import atomic_write
 from gmds.errors import ModelFileError
 from gmds.files.npz import read_npz
-from gmds.morphometrics.components import LEAST_VARIANCE, principal_components
+from gmds.morphometrics.components import ALIKE, LEAST_VARIANCE, principal_components
 from gmds.morphometrics.fitted_shape import FittedShape, Registered
+from gmds.morphometrics.model_members import MEMBERS, checked_members
 from gmds.morphometrics.procrustes import fitted, superimposed
 
 # Variance of the place of a point, over the mean variance in the model, that is noise; set by hand.
@@ -66,18 +68,22 @@ class ShapeModel:
     def fit(self, X: Any, y: None = None, *, valid: ArrayLike | None = None) -> Any:
         """The model of configurations X (k, n, 3) or (k, 3 n); of a mesh, what `fit_mesh` gives.
 
-        Raises `BadShape` (E108) for another shape, `BadArgument` (E604) for fewer than 2 configurations.
+        Raises `BadShape` (E108) for another shape, `BadArgument` (E604) for fewer than 2 shapes, or all the same.
         """
         if isinstance(X, Mesh):
             return self.fit_mesh(X)
         x = _configurations(X)
         if len(x) < 2:
             raise BadArgument(f"a model takes 2 shapes or more, not {len(x)}")
+        if self.n_components is not None:
+            whole_number(self.n_components, "n_components", 1)
         laid = superimposed(x, valid, scale=self.scale)
         mean = laid.aligned.mean(axis=0)
         deviations = (laid.aligned - mean).reshape(len(x), -1)
         variance, components = principal_components(deviations, self.n_components)
         total = float((deviations**2).sum()) / (len(x) - 1)
+        if not total > ALIKE * (mean**2).sum():
+            raise BadArgument("the shapes are all the same, so there is nothing that varies")
         self.mean_, self.centroid_sizes_ = mean, laid.sizes
         self.components_, self.explained_variance_ = components, variance
         self.explained_variance_ratio_ = variance / (total or 1.0)
@@ -108,7 +114,7 @@ class ShapeModel:
 
     def inverse_transform(self, scores: ArrayLike) -> Floats:
         """Configurations (k, 3 n) of scores (k, c'), c' at most c; the others are 0."""
-        given = np.atleast_2d(np.asarray(scores, dtype=np.float64))
+        given = np.atleast_2d(real_numbers(scores, "scores"))
         if given.shape[1] > self.n_components_:
             raise BadShape(f"there are {self.n_components_} components, and scores of {given.shape[1]}")
         return np.asarray(self.mean_.ravel() + given @ self.components_[: given.shape[1]], dtype=np.float64)
@@ -164,32 +170,19 @@ class ShapeModel:
     def load(cls, path: str | os.PathLike[str]) -> ShapeModel:
         """Read what `save` wrote. Raises `ModelFileError` (E233), `OSError`."""
         try:
-            read = read_npz(Path(path))
+            read = checked_members(read_npz(Path(path)))
             model = cls(scale=bool(read["scale"]))
             for name in MEMBERS:
                 setattr(model, f"{name}_", read[name])
             model.names_ = tuple(str(one) for one in read["names"] if one)
             model.n_components_, model.n_features_in_ = len(model.components_), model.mean_.size
-        except (ValueError, KeyError) as error:
+        except (ValueError, KeyError, TypeError, IndexError) as error:
             raise ModelFileError(f"{path} is no model that `gmds model` wrote ({error})") from error
         return model
 
 
-MEMBERS = (
-    "mean",
-    "components",
-    "explained_variance",
-    "explained_variance_ratio",
-    "scores",
-    "centroid_sizes",
-    "faces",
-    "aligned",
-)
-"""Attributes that are kept in a file."""
-
-
 def _configurations(X: Any) -> Floats:
-    x = np.asarray(X, dtype=np.float64)
+    x = real_numbers(X, "configurations")
     if x.ndim == 2 and x.shape[1] % 3 == 0:
         x = x.reshape(len(x), -1, 3)
     if x.ndim != 3 or x.shape[2] != 3:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import itertools
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -14,47 +14,81 @@ from geodesics.arrays import Bools, Floats
 from geodesics.io import atomic_write
 from geodesics.io.opening import recoded
 from gmds.errors import BadGroups
+from gmds.files.folders import PACKED, SUFFIXES, plain_name
 from gmds.files.table import delimiter, plain_number, unguarded, write_table
 from gmds.suggestions import did_you_mean
 
 NAMES = ("name", "specimen", "id", "file")  # titles of the column that says which specimen a row is about
 MISSING = "NA"  # as R reads it
+UNKNOWN = frozenset(("", "na", "n/a", "nan", "null", "none", "#n/a", "?", "-"))  # a convention of tables
 
 
 def read_column(path: Path, column: str, names: Sequence[str]) -> NDArray[np.generic]:
     """What a table says of each specimen (k,) in one column: float64 where all are numbers, else words.
 
-    The table has titles; specimens are in a column `name`, `specimen`, `id` or `file`, or else the first, with or
-    without the ending of their files. Raises `BadGroups` (E235) naming a column or specimen that is not there,
-    `OSError`.
+    The table has titles; specimens are in a column `name`, `specimen`, `id` or `file`, or else the first, called as
+    their files are, with or without the ending, or as the atlas has them. Words for what is unknown (NA, NaN, ...) say
+    nothing. Raises `BadGroups` (E235) naming a column or specimen that is not there, or there twice, `OSError`.
     """
-    try:
-        text = recoded(path.read_bytes()).decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise BadGroups(f"{path} is not UTF-8 text ({error})") from error
-    lines = text.splitlines()
-    rows = [row for row in csv.reader(lines, delimiter=delimiter(lines[0] if lines else "")) if any(row)]
-    if len(rows) < 2:
-        raise BadGroups(f"{path} has no rows below its titles")
+    rows = _rows(path)
     titles = [unguarded(one).strip() for one in rows[0]]
     if column not in titles:
         raise BadGroups(f"{path} has no column {column!r}{did_you_mean(column, titles)}")
+    if titles.count(column) > 1:
+        raise BadGroups(f"{path} has {titles.count(column)} columns called {column!r}; leave one")
     key = next((i for i, title in enumerate(titles) if title.lower() in NAMES), 0)
     at = titles.index(column)
     said: dict[str, str] = {}
     for number, row in enumerate(rows[1:], start=2):
         if len(row) <= max(key, at):
             raise BadGroups(f"{path}, row {number}: {len(row)} cells where there are {len(titles)} titles")
-        said[unguarded(row[key]).strip()] = unguarded(row[at]).strip()
-    by_stem = {Path(name).stem: value for name, value in said.items()} | said
-    absent = [name for name in names if not by_stem.get(name)]
+        name, word = unguarded(row[key]).strip(), unguarded(row[at]).strip()
+        if said.setdefault(name, word) != word:
+            raise BadGroups(f"{path}, row {number}: {name} is {word} here and {said[name]} before; leave one")
+    words = [_said_of(name, said) for name in names]
+    absent = [name for name, word in zip(names, words, strict=True) if word.casefold() in UNKNOWN]
     if absent:
         raise BadGroups(f"{path} says nothing of {absent[0]} under {column} ({len(absent)} such specimens)")
-    words = [by_stem[name] for name in names]
     try:
-        return np.array([float(plain_number(word)) for word in words])
+        found = np.array([float(plain_number(word)) for word in words])
     except ValueError:
         return np.array(words, dtype=np.str_)
+    for name, number in zip(names, found, strict=True):
+        if not np.isfinite(number):
+            raise BadGroups(f"{path}: {column} of {name} is {number}, which is no number to compare with")
+    return found
+
+
+def _rows(path: Path) -> list[list[str]]:
+    """The rows of a table that are not empty, the first its titles."""
+    try:
+        text = recoded(path.read_bytes()).decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise BadGroups(f"{path} is not UTF-8 text ({error})") from error
+    lines = text.splitlines()
+    try:
+        rows = [row for row in csv.reader(lines, delimiter=delimiter(lines[0] if lines else "")) if any(row)]
+    except csv.Error as error:
+        raise BadGroups(f"{path} is no table ({error})") from error
+    if len(rows) < 2:
+        raise BadGroups(f"{path} has no rows below its titles")
+    return rows
+
+
+def _said_of(name: str, said: Mapping[str, str]) -> str:
+    """What rows say of a specimen: of its name, else of the one file that goes by it; nothing where that is unsure."""
+    if name in said:
+        return said[name]
+    found = {word for file, word in said.items() if name in _called(file)}
+    return found.pop() if len(found) == 1 else ""
+
+
+def _called(file: str) -> set[str]:
+    """The names that a specimen in a file may have in an atlas, which has no spaces in names."""
+    path = Path(file)
+    packed = path.with_suffix("") if path.suffix.lower() == PACKED else path
+    stem = packed.stem if packed.suffix.lower() in SUFFIXES else packed.name
+    return {stem, plain_name(stem), plain_name(path.name)}
 
 
 def write_points(path: Path, names: Sequence[str], points: Sequence[str], places: Floats, valid: Bools) -> None:

@@ -9,11 +9,12 @@ from numpy.typing import ArrayLike
 from scipy.sparse.linalg import LinearOperator, cg
 
 from geodesics import Mesh, Metric, Spectrum, SurfacePoints, wave_kernel_signature
-from geodesics.arrays import Floats
+from geodesics.arguments import real_numbers, whole_number
+from geodesics.arrays import Bools, Floats
 from geodesics.errors import BadArgument, BadShape
 from geodesics.spectrum import as_spectrum
 from gmds.spectral_maps.operators import multiplication, orientation_operator
-from gmds.spectral_maps.representation import FunctionalMap
+from gmds.spectral_maps.representation import BOTH, FunctionalMap, points_for
 from gmds.surface.view import View
 
 Surface = Spectrum | Metric | Mesh
@@ -25,6 +26,9 @@ EIGENVALUES = 0.1
 PRODUCTS = 0.6
 ORIENTATION = 2.0
 OPERATORS = 12  # descriptors, spread over all, that make operators; set by hand: each costs two products an iteration
+SAME = 1e-9  # of the largest value, by which descriptors differ that are one but for rounding: a bound, far above it
+LARGE = 1e100  # numbers up to this, and down to its inverse, can be squared and summed in float64: a bound
+TINY = np.finfo(float).tiny  # what keeps divisions from 0
 ENERGIES = 40  # of the wave-kernel signatures that are compared where no descriptors are given; set by hand
 
 
@@ -83,16 +87,15 @@ def functional_map(
     spectral_gmds : From distances.
     match : A map without any of these.
     """
-    if orientation not in SIGNS:
+    if not isinstance(orientation, str) or orientation not in SIGNS:
         raise BadArgument(f"orientation must be one of {', '.join(map(repr, SIGNS))}, not {orientation!r}")
     ours, theirs = (View.of(as_spectrum(surface)) for surface in (source, target))
     most = min(ours.functions.shape[1], theirs.functions.shape[1])
-    if not 1 <= count <= most:
-        raise BadArgument(f"count must be from 1 to {most}, the eigenfunctions that both surfaces have, not {count}")
+    count = whole_number(count, "count", 1, most, BOTH)
     if points is not None:
         if descriptors is not None:
             raise BadArgument("give descriptors or points, not both")
-        return FunctionalMap.of_points(ours, theirs, _points(ours, theirs, points), count)
+        return FunctionalMap.of_points(ours, theirs, points_for(ours, theirs, points), count)
     if descriptors is None:
         descriptors = _signature(ours), _signature(theirs)
     f, g = _scaled(descriptors, ours, theirs)
@@ -103,28 +106,31 @@ def _signature(view: View) -> Floats:
     return wave_kernel_signature(view.spectrum, ENERGIES)
 
 
-def _points(source: View, target: View, points: Any) -> SurfacePoints:
-    """The points, which may be those of a correspondence, or vertices."""
-    found = getattr(points, "points", points)
-    if not isinstance(found, SurfacePoints):
-        found = SurfacePoints.at_vertices(target.mesh, found)
-    if len(found) != source.mesh.n_vertices:
-        raise BadShape(f"there must be {source.mesh.n_vertices} points, one for each source vertex, not {len(found)}")
-    return found
-
-
 def _scaled(descriptors: tuple[ArrayLike, ArrayLike], source: View, target: View) -> tuple[Floats, Floats]:
     """Descriptors (n, d) and (n_target, d), each column with a mean square of 1 over both surfaces."""
-    f, g = (np.asarray(values, dtype=np.float64) for values in descriptors)
+    if not isinstance(descriptors, tuple | list) or len(descriptors) != 2:
+        raise BadArgument("descriptors must be a pair, those of the source and those of the target")
+    f, g = (real_numbers(values, "descriptors") for values in descriptors)
     f, g = (values[:, None] if values.ndim == 1 else values for values in (f, g))
     for values, view, name in ((f, source, "source"), (g, target, "target")):
         if values.ndim != 2 or len(values) != view.mesh.n_vertices or values.shape[1] != f.shape[1]:
             raise BadShape(f"descriptors of the {name} must be ({view.mesh.n_vertices}, d), not {values.shape}")
-        if not np.isfinite(values[view.usable]).all():
+        there = values[view.usable]
+        if not np.isfinite(there).all():
             raise BadArgument(f"descriptors of the {name} must be finite")
+        if not (np.ptp(there, axis=0) > SAME * np.abs(there).max(axis=0)).any():
+            raise BadArgument(f"descriptors of the {name} are the same at all its vertices: none can be told apart")
+    f, g = np.nan_to_num(f), np.nan_to_num(g)
+    largest = np.maximum(np.abs(f).max(axis=0), np.abs(g).max(axis=0))
+    f, g = (values / np.where(_squarable(largest), 1.0, largest) for values in (f, g))
     both = source.spectrum.mass @ f**2 + target.spectrum.mass @ g**2
-    scale = np.sqrt(2 / np.maximum(both, np.finfo(float).tiny))
-    return np.nan_to_num(f) * scale, np.nan_to_num(g) * scale
+    scale = np.sqrt(2 / np.maximum(both, TINY))
+    return f * scale, g * scale
+
+
+def _squarable(values: Floats) -> Bools:
+    """Numbers whose squares, and sums of these, stay within float64, and 0."""
+    return (values < LARGE) & ((values > 1 / LARGE) | (values == 0))
 
 
 def _fitted(source: View, target: View, f: Floats, g: Floats, count: int, sign: float) -> Floats:
@@ -143,12 +149,12 @@ def _fitted(source: View, target: View, f: Floats, g: Floats, count: int, sign: 
     for weight, operator in pairs:
         here = np.stack([operator(source, f[:, j], count) for j in chosen])
         there = np.stack([operator(target, g[:, j], count) for j in chosen])
-        scale = np.sqrt(abs(weight) * count / max((here**2).sum() + (there**2).sum(), np.finfo(float).tiny))
+        scale = np.sqrt(abs(weight) * count / max((here**2).sum() + (there**2).sum(), TINY))
         left.append(scale * here)
         right.append(scale * np.sign(weight) * there)
     operators = np.concatenate(left), np.concatenate(right)
     ours, theirs = source.eigenvalues[:count], target.eigenvalues[:count]
-    gaps = EIGENVALUES * count * ((ours[:, None] - theirs) / (0.5 * (ours[-1] + theirs[-1]))) ** 2
+    gaps = EIGENVALUES * count * ((ours[:, None] - theirs) / max(0.5 * (ours[-1] + theirs[-1]), TINY)) ** 2
     d = f.shape[1]
 
     def normal(flat: Floats) -> Floats:

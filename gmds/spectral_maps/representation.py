@@ -4,17 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from geodesics import SurfacePoints
+from geodesics.arguments import real_numbers, whole_number
 from geodesics.arrays import Floats, Integers
+from geodesics.distance import as_points
 from geodesics.errors import BadArgument, BadShape
 from gmds.spectral.extension import closest_points
 from gmds.spectral.functional_maps import nearest_rows
 from gmds.spectral.refinement import upsampled
 from gmds.surface.view import View
+
+BOTH = "the eigenfunctions that both surfaces have"
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,12 +75,22 @@ class FunctionalMap:
         -------
         array of shape (n,) or (n, c)
             One row for each source vertex.
+
+        Raises
+        ------
+        MeshError
+            E107 or E108 for values of another kind or shape.
+        ValueError
+            For values that are not finite.
         """
-        v = np.asarray(values, dtype=np.float64)
-        if v.ndim == 0 or len(v) != self.target.mesh.n_vertices:
+        v = real_numbers(values, "values")
+        if v.ndim not in (1, 2) or len(v) != self.target.mesh.n_vertices:
             raise BadShape(f"values must have {self.target.mesh.n_vertices} rows, one for each target vertex")
         k, j = self.matrix.shape
-        coefficients = (self.target.functions[:, :j] * self.target.spectrum.mass[:, None]).T @ v
+        usable = self.target.usable
+        if not np.isfinite(v[usable]).all():
+            raise BadArgument("values must be finite: each function on the source is a mean over the whole target")
+        coefficients = (self.target.functions[usable, :j] * self.target.spectrum.mass[usable, None]).T @ v[usable]
         return np.asarray(self.source.functions[:, :k] @ (self.matrix @ coefficients), dtype=np.float64)
 
     def points(self) -> SurfacePoints:
@@ -114,19 +129,30 @@ class FunctionalMap:
         Raises
         ------
         ValueError
-            When there are fewer eigenfunctions.
+            When there are fewer eigenfunctions than `count` or any of `sizes`.
 
         References
         ----------
         Melzi, Ren, Rodola, Sharma, Wonka, Ovsjanikov: ZoomOut (2019).
         """
         most = min(self.source.functions.shape[1], self.target.functions.shape[1])
-        if not 1 <= count <= most:
-            raise BadArgument(
-                f"count must be from 1 to {most}, the eigenfunctions that both surfaces have, not {count}"
-            )
+        count = whole_number(count, "count", 1, most, BOTH)
         begin = min(*self.matrix.shape, count)
-        steps = np.unique(np.geomspace(begin, count, 21).astype(int)) if sizes is None else np.array(list(sizes))
-        images = upsampled(self.source, self.target, self.vertex_map(), steps.tolist())
+        if sizes is None:
+            steps = np.unique(np.geomspace(begin, count, 21).astype(int)).tolist()
+        else:
+            steps = [whole_number(size, "each of sizes", 1, most, BOTH) for size in sizes] or [count]
+        images = upsampled(self.source, self.target, self.vertex_map(), steps)
         points = SurfacePoints.at_vertices(self.target.mesh, images)
         return FunctionalMap.of_points(self.source, self.target, points, count)
+
+
+def points_for(source: View, target: View, points: Any) -> SurfacePoints:
+    """The points of the target for all source vertices, which may be those of a correspondence, or vertices.
+
+    Raises `MeshError` (E105 to E108) where they are not.
+    """
+    found = as_points(target.mesh, getattr(points, "points", points))
+    if len(found) != source.mesh.n_vertices:
+        raise BadShape(f"there must be {source.mesh.n_vertices} points, one for each source vertex, not {len(found)}")
+    return found

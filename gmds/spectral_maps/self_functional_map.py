@@ -54,8 +54,11 @@ def self_functional_map(
     self_functional_features : Without signs, for `retrieve`.
     functional_map : Between two surfaces.
     """
+    mesh = Mesh.from_object(mesh)
+    if not isinstance(metrics, tuple | list) or len(metrics) != 2 or not all(map(callable, metrics)):
+        raise BadArgument(f"metrics must be two functions, as (embedded, scale_invariant), not {metrics!r:.60}")
     first, second = (View.of(eigenpairs(metric(mesh), count)) for metric in metrics)
-    if min(first.functions.shape[1], second.functions.shape[1]) < count or count < 1:
+    if min(first.functions.shape[1], second.functions.shape[1]) < count:
         raise BadArgument(f"{mesh!r} has fewer than {count} eigenfunctions")
     return np.asarray((second.spectrum.mass[:, None] * second.functions).T @ first.functions, dtype=np.float64)
 

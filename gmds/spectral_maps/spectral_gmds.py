@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geodesics import Distance, Spectrum, SurfacePoints, distance_matrix, eigenpairs, embedded, farthest_point_sampling
+from geodesics.arguments import whole_number
 from geodesics.arrays import Floats
 from geodesics.distance import as_distance
 from geodesics.errors import BadArgument
 from gmds.canonical_forms.spectral import squared_distances_in_eigenfunctions
-from gmds.spectral_maps.representation import FunctionalMap
+from gmds.spectral_maps.representation import FunctionalMap, points_for
 from gmds.surface.view import View
 
 SAMPLES = 300  # of each surface, by which its distances are known; set by hand, as for `canonical_form`
@@ -75,7 +76,9 @@ def spectral_gmds(
     Raises
     ------
     ValueError
-        Where there are fewer eigenfunctions.
+        Where there are fewer eigenfunctions, or the start is one of other surfaces.
+    MeshError
+        E105 to E108 for a start that does not name a point of the target for each source vertex.
 
     References
     ----------
@@ -88,14 +91,14 @@ def spectral_gmds(
     functional_map : From descriptors.
     """
     distances = as_distance(source_distance), as_distance(target_distance)
+    count, samples = whole_number(count, "count", 2), whole_number(samples, "samples", 2)
     ours, theirs = (View.of(_spectrum(each, count)) for each in distances)
-    if min(ours.functions.shape[1], theirs.functions.shape[1]) < count or count < 2:
-        raise BadArgument(f"both surfaces need {count} eigenfunctions, and at least 2")
+    if min(ours.functions.shape[1], theirs.functions.shape[1]) < count:
+        raise BadArgument(f"both surfaces need {count} eigenfunctions")
     ours, theirs = ours.first(count), theirs.first(count)
     first, second = _squared(distances[0], ours, samples), _squared(distances[1], theirs, samples)
     unit = np.sqrt((first**2).sum())
-    now = start if isinstance(start, FunctionalMap) else _of_points(ours, theirs, start)
-    now = FunctionalMap(ours, theirs, now.matrix)
+    now = FunctionalMap(ours, theirs, _start(ours, theirs, start))
     for size in _sizes(min(*now.matrix.shape), count):
         matrix = np.zeros((size, size))
         k = min(size, *now.matrix.shape)
@@ -162,8 +165,13 @@ def _spectrum(distance: Distance, count: int) -> Spectrum:
     return eigenpairs(getattr(distance, "metric", None) or embedded(distance.mesh), count)
 
 
-def _of_points(source: View, target: View, start: Any) -> FunctionalMap:
-    points = getattr(start, "points", start)
-    if not isinstance(points, SurfacePoints):
-        points = SurfacePoints.at_vertices(target.mesh, points)
-    return FunctionalMap.of_points(source, target, points, FIRST)
+def _start(source: View, target: View, start: Any) -> Floats:
+    """The matrix to begin with, of two functions at least: a constant alone says nothing."""
+    if not isinstance(start, FunctionalMap):
+        return FunctionalMap.of_points(source, target, points_for(source, target, start), FIRST).matrix
+    for given, view, name in ((start.source, source, "source"), (start.target, target, "target")):
+        if given.mesh is not view.mesh and given.mesh.n_vertices != view.mesh.n_vertices:
+            raise BadArgument(f"the {name} of start is {given.mesh!r}, and not {view.mesh!r}")
+    if min(start.matrix.shape) < 2:
+        raise BadArgument("start must be a map of two eigenfunctions or more: a constant one alone says nothing")
+    return start.matrix

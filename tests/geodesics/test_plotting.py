@@ -39,3 +39,17 @@ def test_without_plotly_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.setitem(sys.modules, "plotly.graph_objects", None)
     with pytest.raises(MissingExtra, match="viz"):
         geodesics.plot(MESH)
+
+
+@pytest.mark.parametrize("values", [np.full((42, 3), 255), np.full((42, 3), np.nan), np.full(42, 1j), ["a"] * 42])
+def test_colours_and_values_are_checked(values: object) -> None:
+    pytest.importorskip("plotly")
+    with pytest.raises(ValueError, match=r"E604|E107"):
+        geodesics.plot(MESH, values)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("up", [(0, 0, 0), (1,), (np.nan, 0, 1), 5])
+def test_up_is_a_direction(up: object) -> None:
+    pytest.importorskip("plotly")
+    with pytest.raises(ValueError, match="E604: up"):
+        geodesics.plot(MESH, up=up)  # type: ignore[arg-type]

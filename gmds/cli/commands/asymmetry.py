@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from gmds.cli.group import Command
 from gmds.cli.output import emit, json_option, note
+from gmds.cli.paths import refuse_same_folder
+
+if TYPE_CHECKING:
+    from geodesics.arrays import Integers
+    from gmds.atlases.registered import Atlas
 
 PATH = click.Path(path_type=Path)
 
@@ -46,6 +52,7 @@ def command(atlas_file: Path, output: Path, sides: Path | None, individual: str,
     from gmds.morphometrics.asymmetry import matching_asymmetry, object_asymmetry
     from gmds.morphometrics.specimen_tables import read_column
 
+    refuse_same_folder(atlas_file.parent, output, "the atlas")
     atlas = Atlas.load(atlas_file)
     if sides is None:
         names = list(atlas.names)
@@ -55,12 +62,26 @@ def command(atlas_file: Path, output: Path, sides: Path | None, individual: str,
     else:
         who, which = (read_column(sides, column, atlas.names) for column in (individual, side))
         names, one, other = side_pairs(np.asarray(who).astype(str), np.asarray(which).astype(str))
+        note_sides(atlas, one, other, names)
         x, there = atlas.configurations, atlas.valid
         found = matching_asymmetry(x[one], x[other], atlas.faces, there[one] & there[other])
     write_asymmetry(found, names, output)
     kinds = ("among_specimens", "directional", "fluctuating")
     shares = dict(zip(kinds, (round(share, 4) for share in found.shares), strict=True))
     emit({"folder": str(output), "compared": len(names), "shares_of_variation": shares}, as_json)
+
+
+def note_sides(atlas: Atlas, one: Integers, other: Integers, names: list[str]) -> None:
+    """Say so where both specimens of an individual are of one side, and how many specimens have no partner."""
+    alike = [name for name, i, j in zip(names, one, other, strict=True) if atlas.mirrored[i] == atlas.mirrored[j]]
+    if alike:
+        note(
+            f"gmds: neither or both specimens of {alike[0]} were mirrored ({len(alike)} such individuals): what is "
+            "told is not asymmetry; make the atlas with `gmds atlas --mirror`"
+        )
+    alone = len(atlas.names) - 2 * len(names)
+    if alone:
+        note(f"gmds: {alone} specimens have no partner, or more than one, and are left out")
 
 
 def warn_if_poor(status: str) -> None:

@@ -9,6 +9,7 @@ import click
 
 from gmds.cli.group import UNFINISHED, Command
 from gmds.cli.output import emit, json_option, note, progress_bar
+from gmds.cli.paths import refuse_same_folder
 
 if TYPE_CHECKING:
     from gmds.atlases.registered import Atlas
@@ -71,6 +72,7 @@ def command(folder: Path, output: Path, as_json: bool, **options: Any) -> None:
     from gmds.atlases.output import write_atlas
     from gmds.batch import local_client, quiet, remote_client
 
+    refuse_same_folder(folder, output, "the meshes")
     address, workers = options.pop("scheduler"), options.pop("workers")
     if address is not None and workers is not None:
         raise click.UsageError("--workers is for this machine; with --scheduler its workers are used")
@@ -88,6 +90,8 @@ def command(folder: Path, output: Path, as_json: bool, **options: Any) -> None:
 
 
 def _told(made: Atlas, output: Path) -> dict[str, Any]:
+    import numpy as np
+
     laid = made.superposition
     distances = dict(zip(made.names, map(float, laid.distances), strict=True))
     farthest = sorted(distances.items(), key=lambda item: -item[1])[:3]
@@ -99,7 +103,7 @@ def _told(made: Atlas, output: Path) -> dict[str, Any]:
         "mirrored": [name for name, is_so in zip(made.names, made.mirrored, strict=True) if is_so],
         "mean_rests_after": f"{laid.rounds} rounds of superposition, moved by {laid.change:.1e}",
         "mean_moved_in_later_rounds": list(made.changes),
-        "mean_gap": float(made.gap[made.gap == made.gap].mean()),
+        "mean_gap": float(np.nanmean(made.gap)) if np.isfinite(made.gap).any() else None,
         "farthest_from_mean": dict(farthest),
         "left_out": list(made.failures),
     }

@@ -9,6 +9,7 @@ import click
 
 from gmds.cli.group import Command
 from gmds.cli.output import emit, json_option, seed_option
+from gmds.cli.paths import refuse_same_folder
 
 PATH = click.Path(path_type=Path)
 
@@ -47,6 +48,7 @@ def command(
     from gmds.morphometrics.group_tests import design, point_tests, shape_test
     from gmds.morphometrics.specimen_tables import read_column
 
+    refuse_same_folder(atlas_file.parent, output, "the atlas")
     if table is None and column != "size":
         raise click.UsageError("--column names a column of --table; or give --column size")
     atlas = Atlas.load(atlas_file)

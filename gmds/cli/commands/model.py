@@ -9,6 +9,7 @@ import click
 
 from gmds.cli.group import Command
 from gmds.cli.output import emit, json_option
+from gmds.cli.paths import refuse_same_folder
 
 if TYPE_CHECKING:
     from gmds.morphometrics.shape_model import ShapeModel
@@ -47,6 +48,7 @@ def command(atlas_file: Path, output: Path, components: int | None, keep_size: b
     from gmds.atlases.registered import Atlas
     from gmds.morphometrics.shape_model import ShapeModel
 
+    refuse_same_folder(atlas_file.parent, output, "the atlas")
     model = ShapeModel.from_atlas(Atlas.load(atlas_file), components, scale=not keep_size)
     write_model(model, output, shown)
     emit(_told(model, output), as_json)
