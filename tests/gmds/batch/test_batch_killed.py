@@ -80,7 +80,7 @@ def test_what_is_done_is_kept(
         time.sleep(0.5)  # the workers notice
     else:
         assert child.returncode == 130, errors
-        assert seconds < 30  # 1 when nothing else runs, 10 on a machine with ten other tasks
+        assert seconds < 10  # 1 when nothing else runs
         assert errors.splitlines()[-1] == "gmds: interrupted" and output == ""  # after what the log says every 10 s
         assert "missing" in (tmp_path / "summary.csv").read_text()
     kept = batches.tree(tmp_path)

@@ -100,7 +100,7 @@ def test_where_a_part_grew_the_default_does_better_than_the_metric_of_space() ->
     regular = gmds.match(source, target, distance=lambda m: CommuteTimeDistance(eigenpairs(embedded(m), 60)))
     invariant = gmds.geodesic_error(gmds.match(source, target), truth).mean()
     assert 100 * invariant < 6
-    assert invariant < 0.8 * gmds.geodesic_error(regular, truth).mean()
+    assert invariant < 0.5 * gmds.geodesic_error(regular, truth).mean()
 
 
 def test_orientation_chooses_among_the_symmetries_of_a_surface() -> None:

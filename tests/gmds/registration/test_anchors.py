@@ -140,15 +140,16 @@ def test_hard_landmarks_inside_faces_are_met_to_the_size_of_faces() -> None:
 
 
 def test_right_soft_landmarks_help() -> None:
-    assert miss(matched("right", 0.02)).mean() < 0.9 * miss(matched("none")).mean()
-    assert error(matched("right", 0.02)) < error(matched("none")) + 0.3  # of maps of 500 vertices, a tenth of an edge
+    assert miss(matched("right", 0.02)).mean() < 0.8 * miss(matched("none")).mean()
+    assert error(matched("right", 0.02)) < error(matched("none")) + 0.1
 
 
 def test_a_wrong_soft_landmark_does_less_harm_than_a_hard_one() -> None:
     hard, soft = matched("wrong"), matched("wrong", 0.05)
     assert miss(hard)[4] > 0.3  # where it was told to be
     assert miss(soft)[4] < 0.5 * miss(hard)[4]  # nearer to where it belongs
-    assert error(soft) < min(error(hard), error(matched("none")) + 0.5)
+    harm, harm_of_hard = (error(answer) - error(matched("none")) for answer in (soft, hard))
+    assert harm < 0.5 and harm < 0.5 * harm_of_hard
 
 
 def test_a_soft_landmark_that_is_given_up_is_named() -> None:
