@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from geodesics import DiffusionDistance, Distance, SurfacePoints
 from geodesics.arrays import Integers
+from geodesics.caching import cached_property
 from gmds.matching.evidence import Evidence, evidence
 from gmds.matching.given_distances import GivenDistances, placed_in_given
 from gmds.matching.pair import SurfacePair
@@ -14,6 +17,7 @@ from gmds.mds.ladder import solve_by_ladder
 from gmds.mds.losses import Loss
 from gmds.mds.problem import Problem
 from gmds.mds.solver import Solution
+from gmds.registration.in_space import bent
 from gmds.registration.register import Registered, assessed, register
 from gmds.registration.settings import FULL, RegistrationSettings
 from gmds.spectral.extension import extend
@@ -24,6 +28,7 @@ FUNCTIONS = 60  # eigenfunctions of the dense map; set by hand
 # Of the diffusion distance that the solver compares, in units of the area: better than 1e-3 and than the biharmonic
 # distance on development pairs, as good as commute time (benchmarks/results/notes.md, "Embedding").
 TIME = 3e-3
+LEAST_BENT = 0.01  # root areas: a bound, what other triangles of one surface may leave
 ITERATIONS = 20  # of the solver, at the most: with as many the figures of notes.md, "Embedding", were measured
 
 
@@ -51,6 +56,18 @@ class MapCandidate:
     def final(self) -> Registered:
         """The source where it lies in the end."""
         return self.deformation if self.laid is None else self.laid
+
+    @cached_property
+    def neg_log_likelihood(self) -> float:
+        """Minus the log-likelihood of the map among maps of this pair, up to a constant: what it is chosen by.
+
+        Its evidence, and where neither surface has limbs how far the source is bent: distances from a similarity are
+        Gaussian residuals too, of which the largest tell the most, as elastic energies hardly feel them.
+        """
+        total = self.evidence.neg_log_likelihood
+        if not self.pair.limbless:
+            return total
+        return total + float(np.log(max(bent(self.pair.full[0], self.deformation.y), LEAST_BENT)))
 
 
 def make_candidate(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from gmds.initialization.extremities import has_limbs
 from gmds.matching.candidates import MapCandidate
 from gmds.matching.pair import SurfacePair
 from gmds.registration.in_space import bent, in_space
@@ -40,4 +39,4 @@ def keeps_its_shape(pair: SurfacePair, deformation: Registered) -> bool:
     by = bent(pair.full[0], deformation.y)
     if by <= HARDLY_BENT:
         return True
-    return by < MOST_BENT and not any(has_limbs(surface.regular) for surface in (pair.source, pair.target))
+    return by < MOST_BENT and pair.limbless

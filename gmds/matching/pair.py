@@ -11,6 +11,7 @@ from geodesics.arrays import Floats, Integers
 from geodesics.caching import cached_property, memoized
 from geodesics.points import joined
 from geodesics.threads import side_by_side
+from gmds.initialization.extremities import has_limbs
 from gmds.initialization.reflection import mirror
 from gmds.landmarks.constraints import LandmarkConstraints, WeightedCorners
 from gmds.registration.anchors import Anchors
@@ -56,6 +57,11 @@ class SurfacePair:
     def closed(self) -> bool:
         """Whether neither surface has a boundary."""
         return not any(mesh.boundary.any() for mesh in self.full)
+
+    @cached_property
+    def limbless(self) -> bool:
+        """Whether neither surface has limbs, so that neither can be in another pose."""
+        return not any(has_limbs(surface.regular) for surface in (self.source, self.target))
 
     def _anchored(self, source: DeformableMesh, target: DeformableMesh) -> tuple[DeformableMesh, DeformableMesh]:
         if self.landmarks is None:

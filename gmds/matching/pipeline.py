@@ -180,7 +180,7 @@ def _answered(
     else:
         how = wanted.loss, wanted.count
         candidates = [one for way in tried for one in embedded(way.pair, way.maps, *how, way.given, wanted.report)]
-        candidates.sort(key=lambda candidate: candidate.evidence.neg_log_likelihood)
+        candidates.sort(key=lambda candidate: candidate.neg_log_likelihood)
         candidates = registered(candidates, wanted.report) if wanted.distance is None else candidates
         answer = correspondence_of([*candidates, *mirrored(candidates[0])], meta)
     if other is not None and orientation == "preserve":

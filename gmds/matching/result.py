@@ -66,7 +66,7 @@ def contenders(placed: Sequence[MapCandidate]) -> list[MapCandidate]:
     close = [
         e
         for e in placed[1:]
-        if e.evidence.closed and e.evidence.neg_log_likelihood < best.evidence.neg_log_likelihood + AMBIGUOUS_MARGIN
+        if e.evidence.closed and e.neg_log_likelihood < best.neg_log_likelihood + AMBIGUOUS_MARGIN
     ]
     return [best, *close[:1]]
 
@@ -129,4 +129,4 @@ def margin_of(likelihoods: Sequence[float], images: Sequence[Floats]) -> float:
 
 
 def _margin(placed: Sequence[MapCandidate]) -> float:
-    return margin_of([one.evidence.neg_log_likelihood for one in placed], [one.points.positions for one in placed])
+    return margin_of([one.neg_log_likelihood for one in placed], [one.points.positions for one in placed])

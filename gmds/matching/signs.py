@@ -10,6 +10,7 @@ squashed mean curvature, the local signs are
 - `normals`, `folds`: :math:`\langle 1 - n \cdot (n_T \circ P) \rangle`, n of y and of the image of the source;
 - `uneven_growth`: how much more or less area grew near the vertex than far around it, as a logarithm;
 - `gap`: the root of :math:`\langle |P - y|^2 \rangle`; `strain`: of the elastic energy per area;
+- `laid`: :math:`\langle |P - P'| \rangle`, where P' is the map laid in space anew; 0 where P is the answer itself;
 
 and those of the whole map are what speaks for it (`gmds.matching.evidence`) and its `margin` over any other.
 """
@@ -61,6 +62,7 @@ def signs_of(candidate: MapCandidate, margin: float) -> Signs:
         "uneven_growth": np.abs(growth[0] - growth[1]),
         "gap": _logarithm(np.sqrt(np.maximum(near(areas * ((image - y) ** 2).sum(axis=1)), 0))),
         "strain": _logarithm(np.sqrt(np.maximum(far(areas * candidate.deformation.strain), 0))),
+        "laid": near(areas * np.linalg.norm(candidate.answer.positions - image, axis=1)),
     }
     n = source.mesh.n_vertices
     return local | {name: np.full(n, value) for name, value in _of_the_whole(candidate, margin).items()}

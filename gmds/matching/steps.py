@@ -88,7 +88,7 @@ def registered(candidates: Sequence[MapCandidate], report: Report) -> list[MapCa
     rivals = contenders(candidates)
     refining = functools.partial(_refining, report)
     done = side_by_side(lambda one: polished(one, refining if one is rivals[0] else None), rivals)
-    ranked = sorted(done, key=lambda candidate: candidate.evidence.neg_log_likelihood)
+    ranked = sorted(done, key=lambda candidate: candidate.neg_log_likelihood)
     return [laid(ranked[0]), *ranked[1:], *(candidate for candidate in candidates if candidate not in rivals)]
 
 
