@@ -64,9 +64,7 @@ def contenders(placed: Sequence[MapCandidate]) -> list[MapCandidate]:
     """
     best = placed[0]
     close = [
-        e
-        for e in placed[1:]
-        if e.evidence.closed and e.neg_log_likelihood < best.neg_log_likelihood + AMBIGUOUS_MARGIN
+        e for e in placed[1:] if e.evidence.closed and e.neg_log_likelihood < best.neg_log_likelihood + AMBIGUOUS_MARGIN
     ]
     return [best, *close[:1]]
 

@@ -16,7 +16,7 @@ from geodesics import Mesh, SurfacePoints
 from gmds import Correspondence, MatchStatus
 from gmds.evaluation import geodesic_error
 from gmds.matching.pair import SurfacePair
-from gmds.matching.part_answers import LEAST_LIKELY, PARTS, WHOLE, boundary_length, likelier_part, maps_of_parts
+from gmds.matching.part_answers import LEAST_LIKELY, PARTS, WHOLE, likelier_part, longest_hole, maps_of_parts
 from gmds.matching.parts import near_image
 from gmds.mds.losses import LeastSquares
 from gmds.surface.measured import measure
@@ -137,12 +137,12 @@ def test_near_an_image_is_within_so_many_spacings() -> None:
 
 
 @pytest.mark.parametrize("scale", [1.0, 3.0])
-def test_the_boundary_is_as_long_as_it_is(scale: float) -> None:
+def test_the_longest_hole_is_as_long_as_it_is(scale: float) -> None:
     sheet = rectangle(10, 7, 2 * scale, 3 * scale)
-    assert boundary_length(sheet) == pytest.approx(10 * scale)
+    assert longest_hole(sheet) == pytest.approx(10 * scale)
     ring = cylinder(64, 4, scale, scale)
-    assert boundary_length(ring) == pytest.approx(4 * np.pi * scale, rel=1e-3)
-    assert boundary_length(bumpy_sphere(2)) == 0
+    assert longest_hole(ring) == pytest.approx(2 * np.pi * scale, rel=1e-3)  # of its two ends
+    assert longest_hole(bumpy_sphere(2)) == 0
 
 
 def test_overruling_overrules() -> None:
