@@ -34,6 +34,7 @@ for word in ("Floats", "Integers", "Bools"):  # shown as these words, which the 
 
 import docstrings  # noqa: E402
 import generated  # noqa: E402
+import live  # noqa: E402
 import mathml  # noqa: E402
 
 import gmds  # noqa: E402
@@ -44,6 +45,8 @@ GENERATED = {
     "docs/reference/gmds": lambda: generated.summary_of("gmds"),
     "docs/reference/geodesics": lambda: generated.summary_of("geodesics"),
 }
+
+WIDE = ("benchmarks/results/", "docs/versions")
 
 project = "gmds"
 author = copyright = "the gmds developers"
@@ -61,10 +64,13 @@ include_patterns = [
 ]
 exclude_patterns = ["docs/paper/**"]
 myst_heading_anchors = 3
+myst_enable_extensions = ["dollarmath"]
 
 html_theme = "furo"
 html_title = f"gmds {release}"
 html_extra_path = ["top"]  # index.html, which leads to docs/index.html
+html_static_path = ["site.css"]
+html_css_files = ["site.css"]
 html_copy_source = False
 html_show_sphinx = False
 
@@ -83,9 +89,17 @@ python_use_unqualified_type_names = True
 
 
 def complete(_app: Any, docname: str, source: list[str]) -> None:
-    """What is generated comes below what the page says."""
+    """What is generated comes below what the page says; pages of tables take the place of the list of headings."""
     if docname in GENERATED:
         source[0] += GENERATED[docname]()
+    if docname.startswith(WIDE):
+        source[0] = f"---\nhide-toc: true\n---\n{source[0]}"
+
+
+def page_of_a_map(app: Any) -> None:
+    """The page that docs/howto/looking.md holds in a frame."""
+    if app.builder.format == "html":
+        live.write_page(Path(app.outdir) / "docs" / "live" / "map.html")
 
 
 def setup(app: Any) -> None:
@@ -95,3 +109,4 @@ def setup(app: Any) -> None:
         if field.name == "variable":
             field.label = "Attributes"  # as numpydoc heads them
     app.connect("source-read", complete)
+    app.connect("builder-inited", page_of_a_map)

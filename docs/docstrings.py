@@ -2,7 +2,7 @@
 
 Marks of reStructuredText that a reader of the source would not take for marks, such as the bars of |K| or the star of a
 product, are escaped. What is written for sphinx stays: roles, directives with what is indented below them, and lines
-of a Python prompt. Sections are left to sphinx.ext.napoleon, which comes afterwards.
+of a Python prompt, with what they print. Sections are left to sphinx.ext.napoleon, which comes afterwards.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ def plain(_app: Any, _what: str, _name: str, _thing: Any, _options: Any, lines: 
 def blocks(lines: Iterable[str]) -> Iterator[tuple[str, list[str]]]:
     """Lines in groups of one kind: a "table", "markup" meant for sphinx, or "text"."""
     kind, group, column = "text", [], -1  # a directive lasts while lines are indented deeper than its column
+    prompt = False
     for line in lines:
         before, stripped = kind, line.strip()
         indent = len(line) - len(line.lstrip())
@@ -33,7 +34,7 @@ def blocks(lines: Iterable[str]) -> Iterator[tuple[str, list[str]]]:
             kind = "markup"
         else:
             column = indent if stripped.startswith(".. ") else -1
-            prompt = stripped.startswith((">>> ", "... "))
+            prompt = stripped.startswith(">>> ") or (prompt and bool(stripped))  # and what is printed, to an empty line
             kind = "table" if line.startswith(TABLE) else "markup" if column >= 0 or prompt else "text"
         if group and kind != before:
             yield before, group

@@ -17,7 +17,7 @@ import gmds.appearance.keeping
 import gmds.matching.notes
 from gmds.cli import main
 
-WIDTH = 100
+WIDTH = 86
 NOTES = {
     "on a mesh": geodesics.check,
     "on a file": geodesics.io,

@@ -40,6 +40,15 @@ def angle_defect(mesh: Mesh) -> Floats:
     See Also
     --------
     gaussian_curvature : Per area, and smoothed.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> import numpy as np
+    >>> defect = geodesics.angle_defect(sphere)
+    >>> float((defect.sum() / np.pi).round(6))  # 4 pi in all (Gauss-Bonnet)
+    4.0
     """
     faces = mesh.faces[proper_faces(mesh.faces)]
     theta = intrinsic.angles(intrinsic.squared_lengths(mesh.vertices, faces))
@@ -77,6 +86,13 @@ def gaussian_curvature(mesh: Mesh, smoothing: float = DEFAULT_SMOOTHING) -> Floa
     angle_defect : Before smoothing.
     mean_curvature, principal_curvatures : The other curvatures, smoothed in the same way.
     scale_invariant : The metric made of it.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> float(geodesics.gaussian_curvature(sphere).mean().round(1))  # 1 / radius^2
+    1.0
     """
     triangulation = intrinsic_delaunay(mesh)
     interior = ~boundary_vertices(mesh)
@@ -108,6 +124,13 @@ def mean_curvature(mesh: Mesh, smoothing: float = DEFAULT_SMOOTHING) -> Floats:
     See Also
     --------
     principal_curvatures : With the Gaussian curvature they give the principal ones.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> float(abs(geodesics.mean_curvature(sphere)).mean().round(1))  # 1 / radius
+    1.0
     """
     triangulation, n = intrinsic_delaunay(mesh), mesh.n_vertices
     laplacian = cotangent_matrix(triangulation, n) @ (mesh.vertices - mesh.vertices.mean(axis=0))
@@ -135,6 +158,14 @@ def principal_curvatures(mesh: Mesh, smoothing: float = DEFAULT_SMOOTHING) -> tu
     See Also
     --------
     gaussian_curvature, mean_curvature : Their product and their mean.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> one, other = geodesics.principal_curvatures(sphere)
+    >>> [float(abs(k).mean().round(1)) for k in (one, other)]
+    [1.0, 1.0]
     """
     h = mean_curvature(mesh, smoothing)
     root = np.sqrt(np.maximum(h**2 - gaussian_curvature(mesh, smoothing), 0))
@@ -156,6 +187,13 @@ def vertex_normals(mesh: Mesh) -> Floats:
     -------
     array of shape (n, 3)
         Unit vectors; 0 where there is no face.
+
+    Examples
+    --------
+    >>> import geodesics
+    >>> triangle = geodesics.Mesh([[0, 0, 0], [3, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+    >>> geodesics.vertex_normals(triangle).tolist()
+    [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0], [0.0, 0.0, 1.0]]
     """
     a, b, c = (mesh.vertices[corner] for corner in orient_faces(mesh).faces.T)
     normal = np.cross(b - a, c - a)

@@ -67,6 +67,13 @@ def intrinsic_delaunay(mesh: Mesh) -> IntrinsicTriangulation:
     See Also
     --------
     stiffness : Assembled on these triangles for conformal metrics.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> geodesics.intrinsic_delaunay(sphere).faces.shape
+    (320, 3)
     """
     delaunay = glued_delaunay(mesh)
     return IntrinsicTriangulation(delaunay.faces, delaunay.lengths**2)

@@ -117,6 +117,14 @@ class DiffusionDistance(_SpectralDistance):
     --------
     CommuteTimeDistance : The average over all times.
     BiharmonicDistance : Falls off fastest in the eigenvalue.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> early, late = (geodesics.DiffusionDistance(sphere, time).field(0).max() for time in (0.01, 0.1))
+    >>> bool(early > late)
+    True
     """
 
     time: float
@@ -147,6 +155,14 @@ class CommuteTimeDistance(_SpectralDistance):
     See Also
     --------
     DiffusionDistance : At one time instead of all.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> distance = geodesics.CommuteTimeDistance(geodesics.scale_invariant(sphere))
+    >>> distance.field([0, 1]).shape
+    (2, 162)
     """
 
     def __init__(self, spectrum: Spectrum | Metric | Mesh) -> None:
@@ -173,6 +189,15 @@ class BiharmonicDistance(_SpectralDistance):
     See Also
     --------
     CommuteTimeDistance : With the first power of the eigenvalue.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> distance = geodesics.BiharmonicDistance(sphere)
+    >>> field = distance.field(0)[0]
+    >>> bool(field[0] == 0 and field.argmax() == (sphere.vertices @ sphere.vertices[0]).argmin())  # farthest: opposite
+    True
     """
 
     def __init__(self, spectrum: Spectrum | Metric | Mesh) -> None:

@@ -24,6 +24,14 @@ class Distance(Protocol):
     --------
     GeodesicDistance : The length of shortest paths.
     DiffusionDistance, CommuteTimeDistance, BiharmonicDistance : Distances between rows of eigenfunctions.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> distance: geodesics.Distance = geodesics.BiharmonicDistance(sphere)
+    >>> distance.field([0, 1]).shape
+    (2, 162)
     """
 
     @property

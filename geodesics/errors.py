@@ -15,7 +15,17 @@ class _Coded(Exception):
 
 
 class MeshError(_Coded, ValueError):
-    """Arrays that do not describe a triangle mesh; `code` is stable across versions."""
+    """Arrays that do not describe a triangle mesh; `code` is stable across versions.
+
+    Examples
+    --------
+    >>> import geodesics
+    >>> try:
+    ...     geodesics.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 7]])
+    ... except geodesics.MeshError as error:
+    ...     print(error)
+    E105: face 0 = [0 1 7] refers outside the 3 vertices; indices count from 0
+    """
 
     code = "E100"
 
@@ -26,6 +36,18 @@ class FormatError(_Coded, ValueError):
     See Also
     --------
     MeshError : Arrays, or the content of a file, that are no triangle mesh.
+
+    Examples
+    --------
+    >>> import geodesics, pathlib, tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / 'dog.off'
+    ...     size = path.write_text('OFF 4 4 0')
+    ...     try:
+    ...         geodesics.read_mesh(path)
+    ...     except geodesics.FormatError as error:
+    ...         print(error.code)
+    E205
     """
 
     code = "E200"

@@ -54,6 +54,13 @@ def stiffness(metric: Metric | Mesh) -> sp.csr_matrix:
     --------
     lumped_mass, galerkin_mass : The other side of the eigenproblem.
     eigenpairs : Its solutions.
+
+    Examples
+    --------
+    >>> import geodesics
+    >>> triangle = geodesics.Mesh([[0, 0, 0], [3, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+    >>> (24 * geodesics.stiffness(triangle)).toarray().round(6).tolist()  # rows sum to 0
+    [[25.0, -16.0, -9.0], [-16.0, 16.0, 0.0], [-9.0, 0.0, 9.0]]
     """
     metric = as_metric(metric)
     if metric.conformal_factor is not None:
@@ -105,6 +112,13 @@ def lumped_mass(metric: Metric | Mesh) -> sp.dia_matrix:
     See Also
     --------
     galerkin_mass : Before rows are summed.
+
+    Examples
+    --------
+    >>> import geodesics
+    >>> triangle = geodesics.Mesh([[0, 0, 0], [3, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+    >>> geodesics.lumped_mass(triangle).diagonal().tolist()  # thirds of the area
+    [2.0, 2.0, 2.0]
     """
     metric = as_metric(metric)
     return sp.diags(metric.mass)
@@ -130,6 +144,13 @@ def galerkin_mass(metric: Metric | Mesh) -> sp.csr_matrix:
     See Also
     --------
     lumped_mass : Its rows summed to the diagonal.
+
+    Examples
+    --------
+    >>> import geodesics
+    >>> triangle = geodesics.Mesh([[0, 0, 0], [3, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+    >>> geodesics.galerkin_mass(triangle).toarray().tolist()
+    [[1.0, 0.5, 0.5], [0.5, 1.0, 0.5], [0.5, 0.5, 1.0]]
     """
     metric = as_metric(metric)
     n = metric.mesh.n_vertices

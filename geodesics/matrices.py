@@ -51,6 +51,13 @@ def distance_matrix(
     --------
     GeodesicDistance, DiffusionDistance, CommuteTimeDistance : Their `field` is a row for all vertices.
     gmds.canonical_form : Points in a Euclidean space that have these distances.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> geodesics.distance_matrix(geodesics.GeodesicDistance(sphere), [0, 1, 2]).shape
+    (3, 3)
     """
     distance = as_distance(distance)
     x = as_points(distance.mesh, points)

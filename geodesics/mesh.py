@@ -45,6 +45,13 @@ class Mesh:
     read_mesh : A mesh from a file.
     triangulate : Triangles from larger polygons.
     geodesics.check.check : What is unusual about a mesh.
+
+    Examples
+    --------
+    >>> import geodesics
+    >>> square = geodesics.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+    >>> square.n_vertices, square.n_faces, square.area
+    (4, 2, 1.0)
     """
 
     vertices: Floats
@@ -138,6 +145,12 @@ def triangulate(faces: ArrayLike) -> Integers:
     ------
     MeshError
         E108 when the array is not (m, k) with k >= 3; E105 - E107 when it does not hold whole numbers from 0.
+
+    Examples
+    --------
+    >>> import geodesics
+    >>> geodesics.triangulate([[0, 1, 2, 3]]).tolist()  # a quadrangle
+    [[0, 1, 2], [0, 2, 3]]
     """
     f = as_indices(faces, 2**63 - 1, "face", "possible vertices")
     if f.ndim != 2 or f.shape[1] < 3:

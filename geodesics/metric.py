@@ -37,6 +37,14 @@ class Metric:
     --------
     conformal : The metric of a given factor.
     embedded, scale_invariant, min_curvature, equi_affine, affine : The metrics of the paper.
+
+    Examples
+    --------
+    >>> import geodesics
+    >>> triangle = geodesics.Mesh([[0, 0, 0], [3, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+    >>> metric = geodesics.embedded(triangle)
+    >>> metric.l_sq.tolist(), float(metric.mass.sum())
+    ([[25.0, 16.0, 9.0]], 6.0)
     """
 
     mesh: Mesh
@@ -68,6 +76,15 @@ def conformal(mesh: Mesh, factor: Floats) -> Metric:
     --------
     embedded : The case :math:`\rho = 1`.
     scale_invariant : The case :math:`\rho = |K|`.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> import numpy as np
+    >>> metric = geodesics.conformal(sphere, np.full(sphere.n_vertices, 4.0))  # lengths twice as long
+    >>> float((metric.l_sq / geodesics.embedded(sphere).l_sq).max().round(6))
+    4.0
     """
     l_sq = intrinsic.conformal_lengths(intrinsic.squared_lengths(mesh.vertices, mesh.faces), mesh.faces, factor)
     mass = factor * vertex_areas(*intrinsic_delaunay(mesh), mesh.n_vertices)

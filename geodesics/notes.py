@@ -22,6 +22,12 @@ class Note:
         The first of the faces or vertices that are meant.
     count : int, optional
         How many there are, where they are counted.
+
+    Examples
+    --------
+    >>> import geodesics
+    >>> print(geodesics.Note('W001', 'warning', 'something is odd', (3, 9)))
+    W001: something is odd
     """
 
     code: str

@@ -63,6 +63,14 @@ def plot(
     See Also
     --------
     gmds.pictures.write_values : A picture in a file, of several surfaces side by side.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> figure = geodesics.plot(sphere, sphere.vertices[:, 2], points=[0, 1])
+    >>> [trace.type for trace in figure.data]
+    ['mesh3d', 'scatter3d']
     """
     try:
         import plotly.graph_objects as go

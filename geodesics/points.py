@@ -48,6 +48,14 @@ class SurfacePoints:
     See Also
     --------
     geodesics.tracing.walk : Points moved along the surface.
+
+    Examples
+    --------
+    >>> import geodesics
+    >>> triangle = geodesics.Mesh([[0, 0, 0], [3, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+    >>> middle = geodesics.SurfacePoints(triangle, [0], [[0.5, 0.5, 0]])  # of the edge from vertex 0 to vertex 1
+    >>> middle.positions.tolist()
+    [[1.5, 0.0, 0.0]]
     """
 
     mesh: Mesh

@@ -68,6 +68,14 @@ def farthest_point_sampling(distance: Distance, count: int, first: int | None = 
     See Also
     --------
     voronoi_cells : The vertices nearest to each sample.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> samples = geodesics.farthest_point_sampling(geodesics.GeodesicDistance(sphere), 5)
+    >>> len(set(samples.tolist()))
+    5
     """
     return farthest_point_cells(distance, count, first).samples
 
@@ -113,6 +121,16 @@ def voronoi_cells(distance: Distance, samples: ArrayLike) -> Integers:
     See Also
     --------
     farthest_point_sampling : Samples that are evenly spread.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> distance = geodesics.GeodesicDistance(sphere)
+    >>> samples = geodesics.farthest_point_sampling(distance, 3)
+    >>> cells = geodesics.voronoi_cells(distance, samples)  # for every vertex the number of its sample
+    >>> cells[samples].tolist()
+    [0, 1, 2]
     """
     n, closer = as_distance(distance).mesh.n_vertices, _spreader(distance)
     nearest, cell = np.full(n, np.inf), np.full(n, -1, dtype=np.int64)

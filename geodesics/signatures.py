@@ -47,6 +47,14 @@ def heat_kernel(spectrum: Spectrum | Metric | Mesh, time: float, points: Surface
     See Also
     --------
     heat_kernel_signature : Its diagonal.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> kernel = geodesics.heat_kernel(sphere, 0.1, [0])
+    >>> kernel.shape, int(kernel.argmax())
+    ((1, 162), 0)
     """
     spectrum = as_spectrum(spectrum)
     points = as_points(spectrum.mesh, points)
@@ -87,6 +95,13 @@ def heat_kernel_signature(spectrum: Spectrum | Metric | Mesh, times: ArrayLike |
     --------
     scaled_heat_kernel_signature : Normalised at every time.
     scale_invariant_heat_kernel_signature : Its Fourier magnitudes.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> geodesics.heat_kernel_signature(sphere, [0.01, 0.1]).shape
+    (162, 2)
     """
     spectrum = as_spectrum(spectrum)
     t = resolved_times(spectrum, TIMES) if times is None else times
@@ -114,6 +129,13 @@ def scaled_heat_kernel_signature(spectrum: Spectrum | Metric | Mesh, times: Arra
     See Also
     --------
     heat_kernel_signature : Without the division.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> geodesics.scaled_heat_kernel_signature(geodesics.scale_invariant(sphere)).shape[0]
+    162
     """
     spectrum = as_spectrum(spectrum)
     signature = heat_kernel_signature(spectrum, times)
@@ -157,6 +179,13 @@ def scale_invariant_heat_kernel_signature(
     See Also
     --------
     heat_kernel_signature : The signature that is transformed.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> geodesics.scale_invariant_heat_kernel_signature(sphere).shape
+    (162, 6)
     """
     spectrum = as_spectrum(spectrum)
     t = resolved_times(spectrum, TIMES) if times is None else _times(times)

@@ -49,6 +49,14 @@ class Spectrum:
     --------
     eigenpairs : Computes them.
     DiffusionDistance, CommuteTimeDistance, BiharmonicDistance : Distances made of them.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> spectrum = geodesics.eigenpairs(sphere, 4)
+    >>> abs(spectrum.eigenvalues.round(1)).tolist(), spectrum.eigenfunctions.shape
+    ([0.0, 2.0, 2.0, 2.0], (162, 4))
     """
 
     mesh: Mesh
@@ -129,6 +137,14 @@ def eigenpairs(
     See Also
     --------
     stiffness, lumped_mass, galerkin_mass : The matrices A and B.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> values = geodesics.eigenpairs(geodesics.embedded(sphere), 9).eigenvalues
+    >>> abs(values.round(1)).tolist()  # k (k + 1), but for the edges
+    [0.0, 2.0, 2.0, 2.0, 5.9, 5.9, 5.9, 5.9, 5.9]
     """
     count = whole_number(count, "count", 1)
     metric = as_metric(metric)

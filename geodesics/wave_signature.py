@@ -50,6 +50,13 @@ def wave_kernel_signature(spectrum: Spectrum | Metric | Mesh, n_energies: int = 
     See Also
     --------
     heat_kernel_signature : Low-pass instead of band-pass.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> geodesics.wave_kernel_signature(sphere, n_energies=30).shape
+    (162, 30)
     """
     spectrum = as_spectrum(spectrum)
     positive = spectrum.eigenvalues * spectrum.mass.sum() > 1e-6

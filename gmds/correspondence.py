@@ -59,6 +59,16 @@ class Correspondence:
     See Also
     --------
     match, geodesic_error : Make one, judge one.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped, truth
+    >>> source, target = quadruped(n_vertices=200), quadruped('walk', n_vertices=200)
+    >>> answer = gmds.Correspondence.from_points(source, truth(source, target))
+    >>> heights = answer.transfer(target.vertices[:, 2])  # of the target, carried to the source
+    >>> answer, heights.shape
+    (Correspondence(200 -> 200 vertices, 200 valid, UNRATED), (200,))
     """
 
     source: Mesh

@@ -46,6 +46,14 @@ class GeodesicDistance:
     --------
     DiffusionDistance, CommuteTimeDistance, BiharmonicDistance : Distances from eigenpairs, less sensitive to topology.
     farthest_point_sampling : Evenly spread samples in this distance.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> field = geodesics.GeodesicDistance(sphere).field(0)[0]
+    >>> float(field.max().round(1))  # half a great circle
+    3.1
     """
 
     metric: Metric

@@ -61,6 +61,17 @@ def read_mesh(path: str | os.PathLike[str]) -> Mesh:
     --------
     read_with_notes : With notes on what was changed.
     write_mesh : The inverse.
+
+    Examples
+    --------
+    >>> import geodesics
+    >>> triangle = geodesics.Mesh([[0, 0, 0], [3, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     _ = geodesics.write_mesh(triangle, f'{folder}/triangle.ply')
+    ...     again = geodesics.read_mesh(f'{folder}/triangle.ply')
+    >>> again.faces.tolist()
+    [[0, 1, 2]]
     """
     return read_with_notes(path)[0]
 
@@ -84,6 +95,17 @@ def read_with_notes(path: str | os.PathLike[str]) -> tuple[Mesh, list[Note]]:
     ------
     FormatError, MeshError, OSError
         As `read_mesh` does.
+
+    Examples
+    --------
+    >>> import geodesics
+    >>> triangle = geodesics.Mesh([[0, 0, 0], [3, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     _ = geodesics.write_mesh(triangle, f'{folder}/triangle.off')
+    ...     mesh, notes = geodesics.read_with_notes(f'{folder}/triangle.off')
+    >>> mesh.n_faces, notes
+    (1, [])
     """
     contents, path = contents_of(path), Path(path)
     try:
@@ -147,6 +169,16 @@ def write_mesh(mesh: Mesh, path: str | os.PathLike[str]) -> list[Note]:
     See Also
     --------
     read_mesh : The inverse.
+
+    Examples
+    --------
+    >>> import geodesics
+    >>> triangle = geodesics.Mesh([[0, 0, 0], [3, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     notes = geodesics.write_mesh(triangle, f'{folder}/triangle.obj')
+    >>> notes  # nothing was lost
+    []
     """
     path, mesh = Path(path), Mesh.from_object(mesh)
     named = unpacked_name(path)

@@ -43,6 +43,13 @@ def affine(mesh: Mesh, *, regularisation: float = 1.0, smoothing: float = EQUI_A
     --------
     equi_affine : The metric that is rescaled.
     scale_invariant : The same with the metric of space.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> geodesics.affine(sphere).l_sq.shape
+    (320, 3)
     """
     faces, n = mesh.faces, mesh.n_vertices
     l_sq = shared_lengths(faces, intrinsic.lengths_from_tensor(equi_affine_tensor(mesh)), n)

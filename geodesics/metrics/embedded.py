@@ -24,5 +24,12 @@ def embedded(mesh: Mesh) -> Metric:
     See Also
     --------
     scale_invariant : Divided by the local scale.
+
+    Examples
+    --------
+    >>> import geodesics
+    >>> triangle = geodesics.Mesh([[0, 0, 0], [3, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+    >>> geodesics.embedded(triangle).l_sq.tolist()  # the squared length of the edge opposite each corner
+    [[25.0, 16.0, 9.0]]
     """
     return conformal(mesh, np.ones(mesh.n_vertices))

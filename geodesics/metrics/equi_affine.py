@@ -42,6 +42,13 @@ def equi_affine(mesh: Mesh, *, regularisation: float = 0.05) -> Metric:
     See Also
     --------
     affine : Invariant to all affine maps.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> geodesics.equi_affine(sphere).mass.shape
+    (162,)
     """
     return metric_of_lengths(mesh, intrinsic.lengths_from_tensor(equi_affine_tensor(mesh, regularisation)))
 

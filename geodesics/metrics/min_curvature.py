@@ -36,6 +36,15 @@ def min_curvature(mesh: Mesh, *, regularisation: float = 1.0, smoothing: float =
     --------
     scale_invariant : Invariant to bending as well.
     principal_curvatures : Both principal curvatures.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> large = geodesics.Mesh(10 * sphere.vertices, sphere.faces)
+    >>> areas = [geodesics.min_curvature(mesh).mass.sum() for mesh in (sphere, large)]
+    >>> float(round(areas[1] / areas[0], 6))
+    1.0
     """
     first, second = principal_curvatures(mesh, smoothing)
     smaller = np.minimum(np.abs(first), np.abs(second))

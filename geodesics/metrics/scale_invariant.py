@@ -43,5 +43,14 @@ def scale_invariant(
     embedded : Exponent 0.
     min_curvature, equi_affine, affine : Other metrics of the paper.
     gaussian_curvature : K.
+
+    Examples
+    --------
+    >>> import geodesics, trimesh
+    >>> sphere = geodesics.Mesh(trimesh.creation.icosphere(2))  # radius 1
+    >>> large = geodesics.Mesh(10 * sphere.vertices, sphere.faces)
+    >>> areas = [geodesics.scale_invariant(mesh).mass.sum() for mesh in (sphere, large)]
+    >>> float(round(areas[1] / areas[0], 6))
+    1.0
     """
     return conformal(mesh, regularised(mesh, gaussian_curvature(mesh, smoothing), regularisation) ** exponent)

@@ -66,6 +66,14 @@ def orient_faces(mesh: Mesh) -> Mesh:
     See Also
     --------
     geodesics.repair.repair : Orients faces as well.
+
+    Examples
+    --------
+    >>> import geodesics
+    >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    >>> turned = geodesics.Mesh(square, [[0, 1, 2], [0, 3, 2]])
+    >>> geodesics.orient_faces(turned).faces.tolist()
+    [[0, 1, 2], [0, 2, 3]]
     """
     sides = orientation(mesh)
     turn = sides.turn ^ sides.inward

@@ -70,6 +70,16 @@ def atlas(
     See Also
     --------
     ShapeModel.from_atlas : What varies in it.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped
+    >>> shapes = {"standing": quadruped(n_vertices=200), "walking": quadruped("walk", n_vertices=200)}
+    >>> if __name__ == "__main__":  # as other processes take part
+    ...     made = gmds.atlas(shapes)
+    ...     print(made.names, made.positions.shape)
+    ('standing', 'walking') (2, 200, 3)
     """
     if templates < 1 or rounds < 1:
         raise BadArgument("there must be one template and one round at least")

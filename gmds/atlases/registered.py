@@ -61,6 +61,21 @@ class Atlas:
     --------
     atlas : Makes one.
     ShapeModel : A model of the variation in it.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped
+    >>> animal = quadruped(n_vertices=200)
+    >>> import numpy as np
+    >>> k, n = 2, animal.n_vertices
+    >>> positions = np.stack([animal.vertices, 2 * animal.vertices])
+    >>> spread, valid = np.full((k, n), np.nan), np.ones((k, n), bool)
+    >>> names, status, templates = ("dog", "large"), ("GOOD", "GOOD"), ("dog",)
+    >>> none, exact = np.zeros(k, bool), np.zeros(k)
+    >>> made = gmds.Atlas(names, animal.faces, positions, valid, none, spread, exact, status, templates)
+    >>> made.mean.n_vertices == n
+    True
     """
 
     names: tuple[str, ...]

@@ -87,6 +87,17 @@ def match_collection(
     See Also
     --------
     match : One pair.
+
+    Examples
+    --------
+    >>> import gmds, tempfile
+    >>> from gmds.shapes import quadruped
+    >>> shapes = {"standing": quadruped(n_vertices=200), "walking": quadruped("walk", n_vertices=200)}
+    >>> if __name__ == "__main__":  # as other processes take part
+    ...     with tempfile.TemporaryDirectory() as folder:
+    ...         batch = gmds.match_collection(shapes, folder)
+    ...     print([pair.name for pair in batch.pairs], len(batch.failed))
+    ['standing__walking'] 0
     """
     end_if_starting()
     check_keys(options, OPTIONS, "match_collection()")

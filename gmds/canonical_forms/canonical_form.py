@@ -46,6 +46,16 @@ class CanonicalForm:
     See Also
     --------
     canonical_form : Makes one.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped
+    >>> animal = quadruped(n_vertices=200)
+    >>> import geodesics
+    >>> form = gmds.canonical_form(geodesics.BiharmonicDistance(animal), dimension=2, method='classical')
+    >>> form.positions.shape
+    (200, 2)
     """
 
     mesh: Mesh
@@ -118,6 +128,16 @@ def canonical_form(
     --------
     geodesics.distance_matrix : The distances alone.
     solve : Places a surface on another.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped
+    >>> animal = quadruped(n_vertices=200)
+    >>> import geodesics
+    >>> form = gmds.canonical_form(geodesics.GeodesicDistance(animal), samples=40)
+    >>> form.positions.shape
+    (200, 3)
     """
     distance = as_distance(distance)
     if method not in METHODS:

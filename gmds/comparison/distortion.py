@@ -59,6 +59,14 @@ def dissimilarity(a: Mesh, b: Mesh) -> float:
     ----------
     Abstract, sec. 5 and (2.1); both ways as in the modified Gromov-Hausdorff distance of F. Memoli, Discrete Comput.
     Geom. 48 (2012).
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped, truth
+    >>> source, target = quadruped(n_vertices=200), quadruped('walk', n_vertices=200)
+    >>> bool(gmds.dissimilarity(source, target) < 0.1)  # another pose of one animal
+    True
     """
     return embedding_distortion(views(Mesh.from_object(a)), views(Mesh.from_object(b)))
 

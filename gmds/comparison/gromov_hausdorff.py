@@ -69,6 +69,15 @@ def gromov_hausdorff_bounds(
     --------
     gromov_wasserstein_bounds : With areas, and means in place of maxima.
     dissimilarity : The mean distortion of the best embedding, in the scale-invariant metric.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> one = [[0, 1, 2], [1, 0, 1], [2, 1, 0]]  # distances among three points
+    >>> other = [[0, 1, 1], [1, 0, 1], [1, 1, 0]]
+    >>> bounds = gmds.gromov_hausdorff_bounds(one, other)
+    >>> bool(0 < bounds.lower <= bounds.upper)
+    True
     """
     a, b = finite_square(first), finite_square(second)
     gaps = local_gaps(a, b)

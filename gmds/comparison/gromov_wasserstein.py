@@ -55,6 +55,14 @@ def gromov_wasserstein_bounds(
     --------
     gromov_hausdorff_bounds : Maxima in place of means.
     least_distortion : Twice the third lower bound with r = 1, in two metrics, for many shapes.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> one = [[0, 1, 2], [1, 0, 1], [2, 1, 0]]  # distances among three points
+    >>> bounds = gmds.gromov_wasserstein_bounds(one, one)
+    >>> float(round(bounds.upper, 6))
+    0.0
     """
     a, b = finite_square(first), finite_square(second)
     if a.shape != b.shape or order not in ORDERS:

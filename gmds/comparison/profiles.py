@@ -60,6 +60,14 @@ def distance_profile(mesh: Mesh | Surface, metrics: Sequence[Callable[[Mesh], Me
     ----------
     (2.1), (3.2); quantiles of distances as in F. Memoli, "Gromov-Wasserstein distances and the metric approach to
     object matching", Found. Comput. Math. 11 (2011).
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped
+    >>> animal = quadruped(n_vertices=200)
+    >>> gmds.distance_profile(animal).ndim
+    3
     """
     return np.stack([_quantiles(normalised_distances(view, equal_area_samples(view))) for view in views(mesh, metrics)])
 
@@ -91,6 +99,16 @@ def least_distortion(one: Floats, other: Floats) -> float:
     References
     ----------
     The third lower bound of the Gromov-Wasserstein distance: F. Memoli, Found. Comput. Math. 11 (2011).
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import humanoid, quadruped
+    >>> meshes = quadruped(n_vertices=200), quadruped('walk', n_vertices=200), humanoid(n_vertices=200)
+    >>> profiles = [gmds.distance_profile(mesh) for mesh in meshes]
+    >>> pose, species = (gmds.least_distortion(profiles[0], other) for other in profiles[1:])
+    >>> bool(pose < species)
+    True
     """
     return float(np.mean([_assigned(ours, theirs) for ours, theirs in zip(one, other, strict=True)]))
 

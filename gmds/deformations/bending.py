@@ -38,6 +38,15 @@ def bending(mesh: Mesh, angle: float = 30.0, *, count: int = 3, rng: int = 0) ->
     See Also
     --------
     local_scaling : Limbs that grow.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped
+    >>> animal = quadruped(n_vertices=200)
+    >>> bent, true = gmds.bending(animal, 20.0)
+    >>> bent.n_vertices, len(true)
+    (200, 200)
     """
     random = np.random.default_rng(rng)
     tips, middle = extremities(mesh)

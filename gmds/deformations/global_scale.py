@@ -33,6 +33,15 @@ def global_scale(mesh: Mesh, factor: float) -> tuple[Mesh, SurfacePoints]:
     --------
     similarity : With a rotation and a translation.
     local_scaling : From place to place differently.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped
+    >>> animal = quadruped(n_vertices=200)
+    >>> larger, true = gmds.global_scale(animal, 2.0)
+    >>> float(round(larger.area / animal.area, 6))
+    4.0
     """
     if not factor > 0:
         raise BadArgument(f"factor must be positive, not {factor}")

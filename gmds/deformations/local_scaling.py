@@ -46,6 +46,17 @@ def local_scaling(mesh: Mesh, log_scale: ArrayLike) -> tuple[Mesh, SurfacePoints
     See Also
     --------
     branch_log_scale : A field u that makes limbs grow.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped
+    >>> animal = quadruped(n_vertices=200)
+    >>> import numpy as np
+    >>> head = animal.vertices[:, 0] > 0.8
+    >>> grown, true = gmds.local_scaling(animal, np.where(head, np.log(2), 0))
+    >>> bool(grown.area > animal.area)
+    True
     """
     u = np.asarray(log_scale, dtype=np.float64)
     if u.shape != (mesh.n_vertices,) or not np.isfinite(u).all():

@@ -30,6 +30,15 @@ def noise(mesh: Mesh, strength: float = 0.2, *, rng: int = 0) -> tuple[Mesh, Sur
     See Also
     --------
     shot_noise : Few vertices, but far.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped
+    >>> animal = quadruped(n_vertices=200)
+    >>> rough, true = gmds.noise(animal, 0.1)
+    >>> rough.n_faces == animal.n_faces
+    True
     """
     step = strength * mean_edge_length(mesh)
     height = np.random.default_rng(rng).normal(0, step, mesh.n_vertices)

@@ -54,6 +54,15 @@ def remeshing(
         E110 where sheets meet in an edge or a vertex.
     ValueError
         When fewer than 12 vertices are wanted.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped
+    >>> animal = quadruped(n_vertices=200)
+    >>> other, true = gmds.remeshing(animal, 150)
+    >>> len(true), true.mesh is other  # a point of the other for each vertex
+    (200, True)
     """
     if remesher is not None:
         result = remesher(mesh)

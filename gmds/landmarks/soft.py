@@ -25,6 +25,12 @@ class SoftLandmarks:
     --------
     check_landmarks : The forms.
     match : Takes them.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> gmds.SoftLandmarks([[0, 3], [7, 9]], 0.02)  # vertex 0 is about vertex 3, vertex 7 about vertex 9
+    SoftLandmarks(landmarks=[[0, 3], [7, 9]], tolerance=0.02)
     """
 
     landmarks: Any

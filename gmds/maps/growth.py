@@ -53,6 +53,16 @@ class Growth:
         The unit tangent, up to sign, along which the larger stretch is; it means little where both are nearly the same.
     smoothing : float
         Over what share of the area of the source these are averaged, as a heat time.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped
+    >>> animal = quadruped(n_vertices=200)
+    >>> larger, _ = gmds.global_scale(animal, 2.0)
+    >>> growth = gmds.growth_between(animal, larger)
+    >>> growth.stretches.shape, bool(abs(growth.relative).max() < 1e-6)
+    ((200, 2), True)
     """
 
     length: Floats
@@ -92,6 +102,19 @@ def growth_of(answer: PointMap, smoothing: float = SMOOTHING) -> Growth:
     See Also
     --------
     growth_between : Of two meshes with the same faces.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped
+    >>> animal = quadruped(n_vertices=200)
+    >>> import geodesics
+    >>> import numpy as np
+    >>> larger = geodesics.Mesh(2 * animal.vertices, animal.faces)
+    >>> same = geodesics.SurfacePoints.at_vertices(larger, np.arange(animal.n_vertices))
+    >>> growth = gmds.growth_of(gmds.Correspondence.from_points(animal, same))
+    >>> [float(np.median(values).round(2)) for values in (growth.length, growth.area)]  # log 2 and log 4
+    [0.69, 1.39]
     """
     image = answer.points.positions
     used = answer.valid[answer.source.faces].all(axis=1) & ~torn_faces(
@@ -120,6 +143,16 @@ def growth_between(before: Mesh, after: Mesh, smoothing: float = SMOOTHING) -> G
     ------
     BadArgument
         E604 when the faces differ, or the smoothing is not positive.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped
+    >>> animal = quadruped(n_vertices=200)
+    >>> import geodesics
+    >>> larger = geodesics.Mesh(2 * animal.vertices, animal.faces)
+    >>> float(gmds.growth_between(animal, larger).length.max().round(2))  # log 2
+    0.69
     """
     if not np.array_equal(before.faces, after.faces):
         raise BadArgument("the two meshes must have the same faces")

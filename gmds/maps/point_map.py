@@ -23,6 +23,12 @@ class MatchStatus(Enum):
     See Also
     --------
     Status : How a solver ended.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> gmds.MatchStatus.AMBIGUOUS.value
+    'Another map, for instance the mirrored one, does nearly as well; see `candidates`.'
     """
 
     GOOD = "Most of the map is expected to be right, and no other map does nearly as well."
@@ -55,6 +61,15 @@ class Candidate:
     See Also
     --------
     Correspondence : Has them in `candidates`, best first.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped, truth
+    >>> source, target = quadruped(n_vertices=200), quadruped('walk', n_vertices=200)
+    >>> mirrored = gmds.Candidate(truth(source, target, mirrored=True), stress=0.02, orientation=-1.0)
+    >>> len(mirrored.points)
+    200
     """
 
     points: SurfacePoints

@@ -117,6 +117,15 @@ def match(  # noqa: PLR0913 - the signature is a promise
     ----------
     Sec. 5 of Aflalo, Kimmel, Raviv: Scale invariant geometry for nonrigid shapes (2013). What was added and why:
     `benchmarks/results/notes.md`.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped, truth
+    >>> source, target = quadruped(n_vertices=200), quadruped('walk', n_vertices=200)
+    >>> answer = gmds.match(source, target)
+    >>> answer.points.positions.shape  # a point of the target for every vertex of the source
+    (200, 3)
     """
     if orientation not in ASKED:
         raise BadArgument(f"orientation must be one of {', '.join(map(repr, ASKED))}, not {orientation!r}")

@@ -68,6 +68,16 @@ def self_symmetry(
     ----------
     Abstract of Aflalo, Kimmel, Raviv: Scale invariant geometry for nonrigid shapes (2013); Ovsjanikov, Sun, Guibas:
     Global intrinsic symmetries of shapes (2008).
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped
+    >>> animal = quadruped(n_vertices=200)
+    >>> maps = gmds.self_symmetry(animal)
+    >>> left = animal.vertices[:, 1] > 0.2
+    >>> bool((maps[0].points.positions[left, 1] < 0).mean() > 0.9)
+    True
     """
     if n_vertices < 100:
         raise BadArgument(f"n_vertices must be at least 100, not {n_vertices}: fewer do not show a shape")

@@ -42,6 +42,19 @@ def solve_by_ladder(
     ----------
     Sec. 5 of Aflalo, Kimmel, Raviv (2013), for the maximum; Lp norms on the way to it: Bronstein, Bronstein, Kimmel:
     Generalized multidimensional scaling (2006).
+
+    Examples
+    --------
+    >>> import geodesics, gmds
+    >>> from gmds.shapes import quadruped
+    >>> source, target = quadruped(n_vertices=200), quadruped('walk', n_vertices=200)
+    >>> ours, theirs = (geodesics.BiharmonicDistance(mesh) for mesh in (source, target))
+    >>> samples = geodesics.SurfacePoints.at_vertices(source, geodesics.farthest_point_sampling(ours, 10))
+    >>> problem = gmds.Problem(ours, samples, theirs)
+    >>> start = geodesics.SurfacePoints.closest(target, samples.positions)
+    >>> most = gmds.solve_by_ladder(problem, start, gmds.Minimax(), max_iterations=10)
+    >>> bool(most.stress == abs(most.residuals).max())
+    True
     """
     rungs = rungs_below(loss)
     if rungs:

@@ -65,6 +65,19 @@ def solve_multiresolution(
     References
     ----------
     Bronstein, Bronstein, Kimmel: Efficient computation of isometry-invariant distances between surfaces (2006).
+
+    Examples
+    --------
+    >>> import geodesics, gmds
+    >>> from gmds.shapes import quadruped
+    >>> source, target = quadruped(n_vertices=200), quadruped('walk', n_vertices=200)
+    >>> ours, theirs = (geodesics.BiharmonicDistance(mesh) for mesh in (source, target))
+    >>> samples = geodesics.SurfacePoints.at_vertices(source, geodesics.farthest_point_sampling(ours, 10))
+    >>> problem = gmds.Problem(ours, samples, theirs)
+    >>> start = geodesics.SurfacePoints.closest(target, samples.positions)
+    >>> solution = gmds.solve_multiresolution(problem, start)
+    >>> len(solution.points)
+    10
     """
     count = len(start)
     if not 2 <= count <= len(problem) or not growth > 1:

@@ -46,6 +46,18 @@ class Problem:
     --------
     solve : Places the samples.
     TabulatedDistance : Makes geodesic distances quick.
+
+    Examples
+    --------
+    >>> import geodesics, gmds
+    >>> from gmds.shapes import quadruped
+    >>> source, target = quadruped(n_vertices=200), quadruped('walk', n_vertices=200)
+    >>> ours, theirs = (geodesics.BiharmonicDistance(mesh) for mesh in (source, target))
+    >>> samples = geodesics.SurfacePoints.at_vertices(source, geodesics.farthest_point_sampling(ours, 10))
+    >>> problem = gmds.Problem(ours, samples, theirs)
+    >>> start = geodesics.SurfacePoints.closest(target, samples.positions)
+    >>> problem
+    Problem(10 samples, 45 pairs, into BiharmonicDistance(99 coordinates on Mesh(200 vertices, 396 faces)))
     """
 
     source_points: SurfacePoints

@@ -39,6 +39,19 @@ class Solution:
         The trust region of that problem, in mean distances a point.
     iterations : int
         Of both descents together.
+
+    Examples
+    --------
+    >>> import geodesics, gmds
+    >>> from gmds.shapes import quadruped
+    >>> source, target = quadruped(n_vertices=200), quadruped('walk', n_vertices=200)
+    >>> ours, theirs = (geodesics.BiharmonicDistance(mesh) for mesh in (source, target))
+    >>> samples = geodesics.SurfacePoints.at_vertices(source, geodesics.farthest_point_sampling(ours, 10))
+    >>> problem = gmds.Problem(ours, samples, theirs)
+    >>> start = geodesics.SurfacePoints.closest(target, samples.positions)
+    >>> solution = gmds.solve(problem, start)
+    >>> solution.points.positions.shape, len(solution.residuals)
+    ((10, 3), 45)
     """
 
     points: SurfacePoints
@@ -103,6 +116,19 @@ def solve(
     --------
     solve_multiresolution : From few samples to many.
     match : Finds a start as well.
+
+    Examples
+    --------
+    >>> import geodesics, gmds
+    >>> from gmds.shapes import quadruped
+    >>> source, target = quadruped(n_vertices=200), quadruped('walk', n_vertices=200)
+    >>> ours, theirs = (geodesics.BiharmonicDistance(mesh) for mesh in (source, target))
+    >>> samples = geodesics.SurfacePoints.at_vertices(source, geodesics.farthest_point_sampling(ours, 10))
+    >>> problem = gmds.Problem(ours, samples, theirs)
+    >>> start = geodesics.SurfacePoints.closest(target, samples.positions)
+    >>> solution = gmds.solve(problem, start, gmds.Huber())
+    >>> bool(solution.stress < gmds.Huber().value(problem.at(start).residuals))
+    True
     """
     loss = LeastSquares() if loss is None else loss
     here = problem.at(start)

@@ -11,6 +11,12 @@ class Status(Enum):
     See Also
     --------
     MatchStatus : That of a map.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> [status.name for status in gmds.Status]
+    ['CONVERGED', 'STALLED', 'ITERATION_LIMIT']
     """
 
     CONVERGED = "converged: the linearised problem can lower the stress by next to nothing"

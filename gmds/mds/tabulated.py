@@ -54,6 +54,16 @@ class TabulatedDistance:
     See Also
     --------
     Problem : Takes it as either distance.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped
+    >>> source = quadruped(n_vertices=300)
+    >>> import geodesics
+    >>> table = gmds.TabulatedDistance(geodesics.GeodesicDistance(source), landmarks=50)
+    >>> table.field(0).shape
+    (1, 300)
     """
 
     distance: Distance

@@ -50,6 +50,15 @@ class ShapeModel:
         In the units of the configurations.
     faces_, names_ : int64 array of shape (m, 3), tuple of str
         Of the meshes, where it was made of meshes.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> import numpy as np
+    >>> shapes = np.random.default_rng(0).normal(size=(5, 8, 3))  # 5 specimens of 8 points
+    >>> model = gmds.ShapeModel(n_components=2)
+    >>> model.fit(shapes).scores_.shape
+    (5, 2)
     """
 
     def __init__(self, n_components: int | None = None, *, scale: bool = True) -> None:

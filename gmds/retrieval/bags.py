@@ -54,6 +54,15 @@ class BagOfFeatures:
     ----------
     Table 1; A. M. Bronstein, M. M. Bronstein, L. J. Guibas and M. Ovsjanikov, "Shape Google", ACM Trans. Graph. 30
     (2011).
+
+    Examples
+    --------
+    >>> from gmds.retrieval import DEFAULT, learned, signatures_of
+    >>> from gmds.shapes import humanoid, quadruped
+    >>> parts = [signatures_of(mesh, DEFAULT) for mesh in (quadruped(n_vertices=200), humanoid(n_vertices=200))]
+    >>> bags = learned(DEFAULT, parts)  # a `BagOfFeatures`
+    >>> float(bags.of(parts[0]).sum().round(6))
+    1.0
     """
 
     descriptors: tuple[Descriptor, ...]

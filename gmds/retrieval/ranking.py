@@ -58,6 +58,14 @@ def retrieve(query: Mesh, collection: Sequence[Mesh], features: Callable[[Mesh],
     ----------
     Table 1; A. M. Bronstein, M. M. Bronstein, L. J. Guibas and M. Ovsjanikov, "Shape Google", ACM Trans. Graph. 30
     (2011).
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import humanoid, quadruped
+    >>> collection = [humanoid(n_vertices=200), quadruped('walk', n_vertices=200)]
+    >>> gmds.retrieve(quadruped(n_vertices=200), collection).order.tolist()
+    [1, 0]
     """
     meshes = [query, *collection]
     if features is not None:

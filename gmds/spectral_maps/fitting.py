@@ -86,6 +86,16 @@ def functional_map(
     --------
     spectral_gmds : From distances.
     match : A map without any of these.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped, truth
+    >>> source, target = quadruped(n_vertices=200), quadruped('walk', n_vertices=200)
+    >>> import geodesics
+    >>> found = gmds.functional_map(*(geodesics.eigenpairs(mesh, 30) for mesh in (source, target)), count=10)
+    >>> found.matrix.shape
+    (10, 10)
     """
     if not isinstance(orientation, str) or orientation not in SIGNS:
         raise BadArgument(f"orientation must be one of {', '.join(map(repr, SIGNS))}, not {orientation!r}")

@@ -46,6 +46,16 @@ class FunctionalMap:
     See Also
     --------
     functional_map : Makes one.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped, truth
+    >>> source, target = quadruped(n_vertices=200), quadruped('walk', n_vertices=200)
+    >>> found = gmds.functional_map(source, target, points=truth(source, target), count=10)
+    >>> heights = found.pull_back(target.vertices[:, 2])
+    >>> heights.shape
+    (200,)
     """
 
     source: View

@@ -53,6 +53,14 @@ def self_functional_map(
     --------
     self_functional_features : Without signs, for `retrieve`.
     functional_map : Between two surfaces.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped
+    >>> animal = quadruped(n_vertices=200)
+    >>> gmds.self_functional_map(animal, 8).shape
+    (8, 8)
     """
     mesh = Mesh.from_object(mesh)
     if not isinstance(metrics, tuple | list) or len(metrics) != 2 or not all(map(callable, metrics)):
@@ -85,5 +93,13 @@ def self_functional_features(mesh: Mesh, count: int = 20) -> Floats:
     See Also
     --------
     retrieve : ``gmds.retrieve(query, collection, self_functional_features)``.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped
+    >>> animal = quadruped(n_vertices=200)
+    >>> gmds.self_functional_features(animal, 8).shape
+    (64,)
     """
     return np.abs(self_functional_map(mesh, count)).ravel() / count

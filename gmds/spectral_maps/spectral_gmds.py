@@ -29,6 +29,17 @@ class SpectralPlacement:
     """Where spectral GMDS placed a surface: `map` (a `FunctionalMap`), with the `points` (n,) of the target.
 
     `stress` is the root of the mean square of what is left of the squared distances, over that of the source's.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped, truth
+    >>> source, target = quadruped(n_vertices=200), quadruped('walk', n_vertices=200)
+    >>> import geodesics
+    >>> distances = [geodesics.BiharmonicDistance(mesh) for mesh in (source, target)]
+    >>> placed = gmds.spectral_gmds(*distances, truth(source, target), count=10, samples=40)
+    >>> placed.map.matrix.shape
+    (10, 10)
     """
 
     map: FunctionalMap
@@ -89,6 +100,17 @@ def spectral_gmds(
     --------
     solve : Places samples anywhere on the triangles.
     functional_map : From descriptors.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> from gmds.shapes import quadruped, truth
+    >>> source, target = quadruped(n_vertices=200), quadruped('walk', n_vertices=200)
+    >>> import geodesics
+    >>> distances = [geodesics.BiharmonicDistance(mesh) for mesh in (source, target)]
+    >>> placed = gmds.spectral_gmds(*distances, truth(source, target), count=10, samples=40)
+    >>> len(placed.points)
+    200
     """
     distances = as_distance(source_distance), as_distance(target_distance)
     count, samples = whole_number(count, "count", 2), whole_number(samples, "samples", 2)

@@ -32,6 +32,13 @@ class Huber(SmoothLoss):
     See Also
     --------
     LeastSquares, Power, Minimax : Other losses.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> import numpy as np
+    >>> round(gmds.Huber(0.1).value(np.array([0.1, -0.2, 0.3])), 4)
+    0.03
     """
 
     threshold: float = 0.1
@@ -41,15 +48,15 @@ class Huber(SmoothLoss):
             raise BadArgument(f"the threshold of Huber's loss must be positive, not {self.threshold}")
 
     def rho(self, residuals: Floats) -> Floats:
-        """min(|r|, t) (2 |r| - min(|r|, t))."""
+        r""":math:`\min(|r|, t) \, (2 |r| - \min(|r|, t))`."""
         size = np.abs(residuals)
         inner = np.minimum(size, self.threshold)
         return inner * (2 * size - inner)
 
     def slope(self, residuals: Floats) -> Floats:
-        """2 r, held between -2 t and 2 t."""
+        r""":math:`2 r`, held between :math:`-2 t` and :math:`2 t`."""
         return 2 * np.clip(residuals, -self.threshold, self.threshold)
 
     def curvature(self, residuals: Floats) -> Floats:
-        """2 min(1, t / |r|), of the parabola that touches the loss at r and lies above it."""
+        r""":math:`2 \min(1, t / |r|)`, of the parabola that touches the loss at r and lies above it."""
         return 2 * self.threshold / np.maximum(np.abs(residuals), self.threshold)

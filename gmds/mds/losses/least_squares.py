@@ -21,16 +21,23 @@ class LeastSquares(SmoothLoss):
     See Also
     --------
     Huber, Power, Minimax : Other losses.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> import numpy as np
+    >>> round(gmds.LeastSquares().value(np.array([0.1, -0.2, 0.3])), 4)
+    0.0467
     """
 
     def rho(self, residuals: Floats) -> Floats:
-        """r^2."""
+        r""":math:`\rho(r) = r^2`."""
         return residuals**2
 
     def slope(self, residuals: Floats) -> Floats:
-        """2 r."""
+        """:math:`2 r`."""
         return 2 * residuals
 
     def curvature(self, residuals: Floats) -> Floats:
-        """2."""
+        """:math:`2`."""
         return np.full_like(residuals, 2.0)

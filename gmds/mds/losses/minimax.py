@@ -18,7 +18,7 @@ Set by hand: it bounds what is given away of the maximum."""
 
 @dataclass(frozen=True)
 class Minimax:
-    r""":math:`\max |r|`: the distortion of sec. 5, min over rho of max |d_S(s, s') - d_Q(rho s, rho s')|.
+    r""":math:`\max |r|`: the distortion of sec. 5, :math:`\min_\rho \max_{s, s'} |d_S(s, s') - d_Q(\rho s, \rho s')|`.
 
     Each step is a linear program (HiGHS) over the residuals that are largest.
 
@@ -29,6 +29,13 @@ class Minimax:
     See Also
     --------
     LeastSquares, Huber, Power : Other losses.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> import numpy as np
+    >>> round(gmds.Minimax().value(np.array([0.1, -0.2, 0.3])), 4)
+    0.3
     """
 
     def value(self, residuals: Floats) -> float:

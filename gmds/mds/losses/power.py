@@ -32,6 +32,13 @@ class Power(SmoothLoss):
     See Also
     --------
     LeastSquares, Huber, Minimax : Other losses.
+
+    Examples
+    --------
+    >>> import gmds
+    >>> import numpy as np
+    >>> round(gmds.Power(1.0).value(np.array([0.1, -0.2, 0.3])), 2)  # about the mean of the absolute values
+    0.2
     """
 
     exponent: float = 4.0
@@ -42,14 +49,14 @@ class Power(SmoothLoss):
             raise BadArgument(f"{self} needs an exponent of at least 1 and a positive rounding")
 
     def rho(self, residuals: Floats) -> Floats:
-        """(r^2 + s^2)^(p/2) - s^p."""
+        """:math:`(r^2 + s^2)^{p/2} - s^p`."""
         return np.hypot(residuals, self.rounding) ** self.exponent - self.rounding**self.exponent
 
     def slope(self, residuals: Floats) -> Floats:
-        """p r (r^2 + s^2)^(p/2 - 1)."""
+        r""":math:`p \, r \, (r^2 + s^2)^{p/2 - 1}`."""
         return self.exponent * residuals * np.hypot(residuals, self.rounding) ** (self.exponent - 2)
 
     def curvature(self, residuals: Floats) -> Floats:
-        """p max(1, p - 1) (r^2 + s^2)^(p/2 - 1), at least the second derivative."""
+        r""":math:`p \max(1, p - 1) (r^2 + s^2)^{p/2 - 1}`, at least the second derivative."""
         factor = self.exponent * max(1.0, self.exponent - 1)
         return factor * np.hypot(residuals, self.rounding) ** (self.exponent - 2)
