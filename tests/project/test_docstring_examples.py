@@ -30,10 +30,7 @@ def example_of(name: str) -> doctest.DocTest:
 
 @pytest.fixture(scope="module")
 def client() -> Iterator[Any]:
-    """Workers in this process: it is not their being elsewhere that is tried here."""
-    import distributed
-
-    with distributed.Client(processes=False, n_workers=1, threads_per_worker=1, dashboard_address=None) as client:
+    with gmds.batch.local_client(1) as client:
         yield client
 
 
