@@ -28,6 +28,9 @@ FUNCTIONS = 60  # eigenfunctions of the dense map; set by hand
 # Of the diffusion distance that the solver compares, in units of the area: better than 1e-3 and than the biharmonic
 # distance on development pairs, as good as commute time (benchmarks/results/notes.md, "Embedding").
 TIME = 3e-3
+# Share of its cost by which another registration may exceed the cheapest, and be polished as well: set by hand, with
+# six pairs of SHREC'20 (benchmarks/results/notes.md, "Landmarks").
+HARDLY_MORE = 0.07
 LEAST_BENT = 0.01  # root areas: a bound, what other triangles of one surface may leave
 ITERATIONS = 20  # of the solver, at the most: with as many the figures of notes.md, "Embedding", were measured
 
@@ -36,6 +39,7 @@ ITERATIONS = 20  # of the solver, at the most: with as many the figures of notes
 class MapCandidate:
     """A map to `points` (n,) of the target, whose samples `solve` placed in the `views` of both surfaces.
 
+    `other`: the source registered from another start, at nearly the same cost, until it shows which is the better;
     `laid`: the source on the target once more, as it lies in space, if that is the better answer.
     """
 
@@ -45,6 +49,7 @@ class MapCandidate:
     solution: Solution
     deformation: Registered
     evidence: Evidence
+    other: Registered | None = None
     laid: Registered | None = None
 
     @property
@@ -78,18 +83,32 @@ def make_candidate(
     Generalised multidimensional scaling compares diffusion distances (3.1) in the metric of the target in which the
     map keeps area; or the distances given, in their metrics, and then that embedding is the answer as it stands.
     """
-    images = prolonged(pair, proposal)
+    images, other = prolonged(pair, proposal), None
     if given is None:
-        images, views = refined_images(pair, images)
-        points, solution = placed(pair, images, views, loss, count, diffusion_distances(*views))
-        deformation = registered(pair, points)
+        better, views = refined_images(pair, images)
+        points, solution = placed(pair, better, views, loss, count, diffusion_distances(*views))
+        deformation, other = cheaper(pair, registered(pair, points), images)
         points = deformation.points
     else:
         views = given.views
         points, solution = placed_in_given(pair, images, given, loss, count)
         deformation = assessed(*pair.full, points.positions, FULL)
     weighed = evidence(pair, views, points, proposal.residuals, deformation.residuals)
-    return MapCandidate(pair, points, views, solution, deformation, weighed)
+    return MapCandidate(pair, points, views, solution, deformation, weighed, other)
+
+
+def cheaper(pair: SurfacePair, deformation: Registered, images: Integers) -> tuple[Registered, Registered | None]:
+    """That `deformation` or one from where the proposal sends vertices, `images` (n,), whichever costs less.
+
+    And the other of both, if it costs hardly more. Where surfaces differ a foot or an ear may be lost to eigenfunctions
+    between a proposal that has it right and the registration, which brings it back unless landmarks hold what is around
+    it. Without landmarks nothing is gained, and the other is not looked at.
+    """
+    if pair.landmarks is None or deformation.residuals.is_congruence:
+        return deformation, None
+    direct = register(*pair.full, pair.target.mesh.vertices[images], pair.settings)
+    best, other = sorted((deformation, direct), key=lambda one: one.residuals.cost)
+    return best, other if other.residuals.cost < (1 + HARDLY_MORE) * best.residuals.cost else None
 
 
 def refined_images(pair: SurfacePair, images: Integers) -> tuple[Integers, tuple[View, View]]:
@@ -159,4 +178,4 @@ def mirrored(best: MapCandidate) -> list[MapCandidate]:
     deformation = assessed(*pair.full, points.positions, FULL)
     simplified = Proposal.of(pair, points.positions[pair.simplified[0].origin]).residuals
     weighed = evidence(pair, best.views, points, simplified, deformation.residuals)
-    return [replace(best, points=points, deformation=deformation, evidence=weighed, laid=None)]
+    return [replace(best, points=points, deformation=deformation, evidence=weighed, other=None, laid=None)]

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from geodesics import SurfacePoints
+from geodesics.threads import side_by_side
 from gmds.matching.candidates import MapCandidate, registered
 from gmds.matching.evidence import evidence
 from gmds.matching.pair import SurfacePair
@@ -30,12 +31,20 @@ def polished(candidate: MapCandidate, progress: Callable[[float], None] | None =
     """The map refined further, for as long as the elastic energy of the deformation gets less.
 
     It is refined spectrally and registered again; then eigenfunctions take part in the search for closest points, if
-    that pays; then the target is registered to the source as well, and what both say is brought together.
+    that pays; then the target is registered to the source as well, and what both say is brought together. Of two
+    registrations that cost nearly the same both are, and the likelier is the map.
     """
-    pair, deformation = candidate.pair, candidate.deformation
-    if deformation.residuals.is_congruence:
+    if candidate.deformation.residuals.is_congruence:
         return candidate
-    report = progress or (lambda share: None)
+    starts = [one for one in (candidate.deformation, candidate.other) if one is not None]
+    done = side_by_side(lambda one: _polished(candidate, one, progress if one is starts[0] else None), starts)
+    return min(done, key=lambda one: one.neg_log_likelihood)
+
+
+def _polished(
+    candidate: MapCandidate, deformation: Registered, progress: Callable[[float], None] | None
+) -> MapCandidate:
+    pair, report = candidate.pair, progress or (lambda share: None)
     deformation = refined(pair, deformation)
     report(0.3)
     deformation, settings = with_eigenfunctions(pair, deformation)
@@ -43,7 +52,7 @@ def polished(candidate: MapCandidate, progress: Callable[[float], None] | None =
     weighed = evidence(
         pair, candidate.views, deformation.points, candidate.evidence.both_simplified, deformation.residuals
     )
-    return replace(candidate, points=deformation.points, deformation=deformation, evidence=weighed)
+    return replace(candidate, points=deformation.points, deformation=deformation, evidence=weighed, other=None)
 
 
 def refined(pair: SurfacePair, deformation: Registered) -> Registered:
