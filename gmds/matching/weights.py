@@ -14,22 +14,23 @@ class Weight(NamedTuple):
 
 
 # In the order of the signs.
-CONSTANT = 1.915
+CONSTANT = 1.615
 WEIGHTS = {
-    "curvature_far": Weight(-0.45, -3.911, 0.021),
-    "curvature_near": Weight(-0.4547, -4.13, 0.2668),
-    "spectral": Weight(-0.1448, -4.164, 0.07298),
-    "stress": Weight(-0.1686, -5.39, -0.8135),
-    "normals": Weight(-0.3443, -9.21, -2.157),
-    "folds": Weight(0.1401, -9.21, -0.4419),
-    "uneven_growth": Weight(-0.5576, 0.0003753, 0.6307),
-    "gap": Weight(0.3105, -7.757, -3.56),
-    "strain": Weight(-0.9816, -2.319, 0.1436),
-    "folded": Weight(6.764, 0.0004566, 0.1703),
-    "rival": Weight(-2.609, 0.0003355, 0.8154),
-    "whole_energy": Weight(-0.3522, -2.175, -0.1667),
-    "whole_curvature": Weight(-0.8111, -4.348, -0.3077),
-    "whole_curvature_back": Weight(-0.6011, -3.549, -0.3234),
-    "simplified_curvature": Weight(1.236, -2.069, -0.2201),
-    "simplified_misfit": Weight(0.9348, -4.547, -3.609),
+    "curvature_far": Weight(-0.3344, -3.859, 0.03171),
+    "curvature_near": Weight(-0.2968, -4.028, 0.2591),
+    "spectral": Weight(-0.2392, -4.208, -0.01813),
+    "stress": Weight(-0.3657, -5.38, -0.7992),
+    "normals": Weight(-0.4269, -9.21, -1.946),
+    "folds": Weight(0.1988, -9.21, -0.4062),
+    "uneven_growth": Weight(-0.6672, 0.0003625, 0.6645),
+    "gap": Weight(0.2648, -7.711, -3.616),
+    "strain": Weight(-0.6682, -2.677, 0.1338),
+    "laid": Weight(-20.9, 0, 0.04623),
+    "folded": Weight(3.089, 0.0004499, 0.2092),
+    "rival": Weight(-1.972, 0.0003355, 0.6241),
+    "whole_energy": Weight(-0.4808, -2.145, -0.1774),
+    "whole_curvature": Weight(-0.8568, -4.396, -0.3074),
+    "whole_curvature_back": Weight(-0.4154, -3.628, -0.2885),
+    "simplified_curvature": Weight(0.609, -2.132, -0.2243),
+    "simplified_misfit": Weight(1.125, -4.54, -3.629),
 }
