@@ -80,7 +80,9 @@ def make_candidate(
 ) -> MapCandidate:
     """A proposal prolonged to all vertices: aligned, `count` samples placed by `solve`, extended, and registered.
 
-    With landmarks it is registered as it is, too, without the embedding, and kept where that is `cheaper`. Generalised multidimensional scaling compares diffusion distances (3.1) in the metric of the target in which the
+    With landmarks it is registered as it is, too, without the embedding, and that is taken where it is `cheaper`.
+
+    Generalised multidimensional scaling compares diffusion distances (3.1) in the metric of the target in which the
     map keeps area; or the distances given, in their metrics, and then that embedding is the answer as it stands.
     """
     images, other = prolonged(pair, proposal), None
