@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from geodesics import SurfacePoints
 from gmds.mds.losses import LeastSquares, Loss, Minimax, Power
+from gmds.mds.many_samples import MANY, solve_many
 from gmds.mds.problem import Problem
 from gmds.mds.solver import Solution, solve
 
@@ -16,6 +17,8 @@ def solve_by_ladder(
     problem: Problem, start: SurfacePoints, loss: Loss, *, max_iterations: int = 50, tolerance: float = 1e-3
 ) -> Solution:
     r"""As `solve`, but a maximum, or a high power, is approached through lower powers of the residuals.
+
+    So are many samples through few (`solve_many`).
 
     .. math:: p = 2, 4, 8, 16, 32, \infty
 
@@ -57,12 +60,14 @@ def solve_by_ladder(
     True
     """
     rungs = rungs_below(loss)
+    smooth = solve_many if len(problem) > MANY else solve
     if rungs:
-        below = solve(problem, start, LeastSquares(), max_iterations=max_iterations, tolerance=tolerance)
+        below = smooth(problem, start, LeastSquares(), max_iterations=max_iterations, tolerance=tolerance)
         start = below.points
         for exponent in rungs:
             start = solve(problem, start, Power(exponent), max_iterations=STEPS, tolerance=tolerance).points
-    return solve(problem, start, loss, max_iterations=max_iterations, tolerance=tolerance)
+    last = solve if rungs else smooth
+    return last(problem, start, loss, max_iterations=max_iterations, tolerance=tolerance)
 
 
 def rungs_below(loss: Loss) -> list[float]:

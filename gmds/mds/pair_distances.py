@@ -8,9 +8,15 @@ from typing import Protocol, cast
 import numpy as np
 
 from geodesics import Distance, SurfacePoints
-from geodesics.arrays import Bools, Floats
+from geodesics.arrays import Bools, Floats, Integers
+from geodesics.caching import cached_property
 from geodesics.topology.components import vertex_components
 from geodesics.tracing import barycentric_gradient, gradient
+from gmds._kernels import pair_distances as kernel
+
+SPARSE = 4
+"""Pairs are measured one by one where they are fewer than one in `SPARSE` of p x p; else a product of matrices is
+quicker (`benchmarks/cost/solver_cost.py`)."""
 
 
 class EmbeddedDistance(Distance, Protocol):
@@ -35,7 +41,7 @@ class EmbeddedPairs:
 
     def distances(self) -> Floats:
         """Symmetric (p, p); +inf where `reach` (p, p) is False."""
-        e = self.points.interpolate(self.embedding)
+        e = self.rows
         gram = (e * self.signature) @ e.T
         norm = np.diagonal(gram)
         square = norm[:, None] + norm[None] - (gram + gram.T)
@@ -45,14 +51,43 @@ class EmbeddedPairs:
 
     def derivatives(self, distances: Floats) -> Floats:
         """(p, 2, p): of d(x_i, x_j) by the in-face displacement of x_i, = (e_i - e_j) . grad e_i / d; 0 where d = 0."""
-        e = self.points.interpolate(self.embedding) * self.signature
-        slope = gradient(self.points, self.embedding).transpose(0, 2, 1)  # (p, 2, k)
-        product = (slope.reshape(-1, slope.shape[2]) @ e.T).reshape(len(e), 2, len(e))
-        index = np.arange(len(e))
-        product = product[index, :, index][:, :, None] - product
+        product, index = self._products, np.arange(len(self.points))
         with np.errstate(divide="ignore"):
             inverse = np.where(distances > 0, 1 / distances, 0.0)
-        return product * inverse[:, None, :]
+        return (product[index, :, index][:, :, None] - product) * inverse[:, None, :]
+
+    def lengths(self, first: Integers, second: Integers) -> Floats:
+        """Distances (r,) of chosen pairs."""
+        if self._few(first):
+            lengths = kernel.lengths(first, second, self.rows, self.signature)
+        else:
+            lengths = kernel.lengths_of_products(first, second, (self.rows * self.signature) @ self.rows.T)
+        return lengths if self.reach is None else np.where(self.reach[first, second], lengths, np.inf)
+
+    def slopes(self, first: Integers, second: Integers, lengths: Floats, scale: Floats) -> Floats:
+        """(r, 2, 2): what `derivatives` says of chosen pairs, first of their first point, each times `scale` (r,)."""
+        if self._few(first):
+            return kernel.slopes(first, second, self.rows, self.signature, self._gradients, lengths, scale)
+        return kernel.slopes_of_products(first, second, self._products, lengths, scale)
+
+    @cached_property
+    def rows(self) -> Floats:
+        """The points in the embedding, (p, k)."""
+        return self.points.interpolate(self.embedding)
+
+    @property
+    def _gradients(self) -> Floats:
+        """Of the embedding at the points, (p, 2, k)."""
+        return np.ascontiguousarray(gradient(self.points, self.embedding).transpose(0, 2, 1))
+
+    @property
+    def _products(self) -> Floats:
+        """Gradients at x_i times the rows of all x_j, (p, 2, p)."""
+        e, slope = self.rows * self.signature, gradient(self.points, self.embedding).transpose(0, 2, 1)
+        return (slope.reshape(-1, slope.shape[2]) @ e.T).reshape(len(e), 2, len(e))
+
+    def _few(self, first: Integers) -> bool:
+        return SPARSE * len(first) < len(self.points) ** 2
 
 
 @dataclass(frozen=True, eq=False)

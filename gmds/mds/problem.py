@@ -9,12 +9,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geodesics import Distance, SurfacePoints
-from geodesics.arrays import Floats, Integers
+from geodesics.arrays import Bools, Floats, Integers
 from geodesics.caching import cached_property
 from geodesics.errors import BadArgument
 from geodesics.tracing import barycentric_gradient
+from gmds.mds.chosen_pairs import chosen_pairs, lengths_of, pair_weights
 from gmds.mds.jacobian import Jacobian, scaled
-from gmds.mds.pair_distances import Pairs, pairwise
+from gmds.mds.pair_distances import EmbeddedPairs, Pairs, pairwise
+
+PER_PAIR = {"first", "second", "source_distances", "root_weights"}  # of a problem: arrays with one entry a pair
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -77,13 +80,13 @@ class Problem:
         pairs: ArrayLike | None = None,
     ) -> None:
         count = len(source_points)
-        first, second = _pairs(pairs, count)
-        lengths = pairwise(source_distance, source_points).distances()[first, second]
+        first, second = chosen_pairs(pairs, count)
+        lengths = lengths_of(pairwise(source_distance, source_points), first, second)
         reached = np.isfinite(lengths)
         if not (lengths[reached] > 0).any():
             raise BadArgument("a problem needs at least two samples at a positive, finite distance from each other")
         first, second, lengths = first[reached], second[reached], lengths[reached]
-        root_weights = np.sqrt(_pair_weights(weights, first, second, count))
+        root_weights = np.sqrt(pair_weights(weights, first, second, count))
         values = (source_points, target_distance, first, second, lengths, root_weights, float(lengths.mean()))
         for column, value in zip(fields(self), values, strict=True):
             object.__setattr__(self, column.name, value)
@@ -103,10 +106,19 @@ class Problem:
 
     def head(self, count: int) -> Problem:
         """The problem of the first `count` samples alone; `unit` stays."""
-        other, kept = copy.copy(self), self.second < count
-        object.__setattr__(other, "source_points", self.source_points[:count])
-        for name in ("first", "second", "source_distances", "root_weights"):
-            object.__setattr__(other, name, getattr(self, name)[kept & (self.first < count)])
+        return self._with_pairs(self.source_points[:count], (self.second < count) & (self.first < count))
+
+    def anchored(self, count: int) -> Problem:
+        """The problem of the pairs that one of the first `count` samples belongs to; `unit` stays."""
+        return self._with_pairs(self.source_points, self.first < count)  # of two, the first is the smaller
+
+    def _with_pairs(self, points: SurfacePoints, kept: Bools) -> Problem:
+        """The problem of some samples and some pairs (r,)."""
+        other, names = object.__new__(Problem), [column.name for column in fields(self)]
+        for name in names:
+            value = getattr(self, name)
+            object.__setattr__(other, name, value[kept] if name in PER_PAIR else value)
+        object.__setattr__(other, "source_points", points)
         return other
 
     def at(self, points: SurfacePoints) -> Placement:
@@ -117,16 +129,22 @@ class Problem:
             raise BadArgument("the points lie on another mesh than the target distance measures")
         return Placement(self, points, pairwise(self.target_distance, points))
 
+    @cached_property
+    def total_weights(self) -> Floats:
+        """The sum of the weights of the pairs of each sample, (p,)."""
+        square = self.root_weights**2
+        ends = np.concatenate([self.first, self.second])
+        return np.bincount(ends, np.concatenate([square, square]), len(self)).astype(np.float64)
+
     def distance_table(self) -> Floats:
         """Source distances (p, p) of the pairs that are asked for, NaN elsewhere."""
         table = np.full((len(self), len(self)), np.nan)
         table[self.first, self.second] = table[self.second, self.first] = self.source_distances
         return table
 
-    def compare(self, distances: Floats) -> Floats:
-        """Residuals (r,) of target distances (p, p); a pair out of reach counts as three mean distances apart."""
-        reached = distances[self.first, self.second]
-        reached = np.where(np.isposinf(reached), 3 * self.unit, reached)
+    def compare(self, lengths: Floats) -> Floats:
+        """Residuals (r,) of target distances (r,); a pair out of reach counts as three mean distances apart."""
+        reached = np.where(np.isposinf(lengths), 3 * self.unit, lengths)
         return self.root_weights * (self.source_distances - reached) / self.unit
 
 
@@ -144,9 +162,15 @@ class Placement:
         return self.pairs.distances()
 
     @cached_property
+    def lengths(self) -> Floats:
+        """Distances of the pairs that are asked for, (r,)."""
+        pairs, first, second = self.pairs, self.problem.first, self.problem.second
+        return lengths_of(pairs, first, second) if isinstance(pairs, EmbeddedPairs) else self.distances[first, second]
+
+    @cached_property
     def residuals(self) -> Floats:
         """r_ij (r,), without dimension."""
-        return self.problem.compare(self.distances)
+        return self.problem.compare(self.lengths)
 
     @cached_property
     def shares(self) -> Floats:
@@ -158,51 +182,22 @@ class Placement:
     @cached_property
     def derivatives(self) -> Floats:
         """Of the residuals by the in-face displacement of their two points, (r, 2, 2)."""
-        first, second = self.problem.first, self.problem.second
+        first, second, lengths = self.problem.first, self.problem.second, self.lengths
+        scale = -np.where(np.isfinite(lengths), self.problem.root_weights, 0.0) / self.problem.unit
+        if isinstance(self.pairs, EmbeddedPairs):
+            return self.pairs.slopes(first, second, lengths, scale)
         slope = self.pairs.derivatives(self.distances)
-        raw = np.stack([slope[first, :, second], slope[second, :, first]], axis=1)
-        factor = np.where(np.isfinite(self.distances[first, second]), self.problem.root_weights, 0.0)
-        return raw * (-factor / self.problem.unit)[:, None, None]
+        return np.stack([slope[first, :, second], slope[second, :, first]], axis=1) * scale[:, None, None]
 
     @cached_property
     def jacobian(self) -> Jacobian:
         """The derivative in steps measured in distances."""
         problem = self.problem
-        weight = np.zeros(len(problem))
-        np.add.at(weight, problem.first, problem.root_weights**2)
-        np.add.at(weight, problem.second, problem.root_weights**2)
-        smallest = np.finfo(float).tiny
-        return scaled(problem.first, problem.second, self.derivatives, len(problem), np.maximum(weight, smallest))
+        weight = np.maximum(problem.total_weights, np.finfo(float).tiny)
+        return scaled(problem.first, problem.second, self.derivatives, len(problem), weight)
 
     @cached_property
     def walled_jacobian(self) -> Jacobian:
         """The same with walls: no weight of a point may fall below zero, so that no point leaves its face."""
         slope = np.einsum("pkx,pxy->pky", barycentric_gradient(self.points), self.jacobian.frames)
         return replace(self.jacobian, walls=(self.points.barycentric, slope))
-
-
-def _pairs(pairs: ArrayLike | None, count: int) -> tuple[Integers, Integers]:
-    """Index arrays i < j: all pairs, or those asked for."""
-    if pairs is None:
-        first, second = np.triu_indices(count, 1)
-        return first.astype(np.int64), second.astype(np.int64)
-    chosen = np.asarray(pairs)
-    if chosen.ndim != 2 or chosen.shape[1] != 2 or not np.issubdtype(chosen.dtype, np.integer):
-        raise BadArgument(f"pairs must be whole numbers of shape (r, 2), not {chosen.dtype} of shape {chosen.shape}")
-    if chosen.size and (chosen.min() < 0 or chosen.max() >= count or (chosen[:, 0] == chosen[:, 1]).any()):
-        raise BadArgument(f"pairs must join two different samples of 0 .. {count - 1}")
-    chosen = np.unique(np.sort(chosen, axis=1), axis=0).astype(np.int64)
-    return np.ascontiguousarray(chosen[:, 0]), np.ascontiguousarray(chosen[:, 1])
-
-
-def _pair_weights(weights: ArrayLike | None, first: Integers, second: Integers, count: int) -> Floats:
-    """w_ij of each pair, scaled to mean 1."""
-    if weights is None:
-        return np.ones(len(first))
-    w = np.asarray(weights, dtype=np.float64)
-    if w.shape not in ((count,), (count, count)):
-        raise BadArgument(f"weights must have shape ({count},) or ({count}, {count}), not {w.shape}")
-    pair = w[first] * w[second] if w.ndim == 1 else 0.5 * (w[first, second] + w[second, first])
-    if not np.isfinite(pair).all() or (pair < 0).any() or not pair.any():
-        raise BadArgument("weights must be finite, not negative, and not all zero")
-    return pair / pair.mean()

@@ -13,6 +13,8 @@ from geodesics.distance import as_points
 from geodesics.errors import BadArgument
 from geodesics.topology.components import vertex_components
 
+COLUMNS = 16384  # vertices that coordinates are computed of together: a bound of memory
+
 
 @dataclass(frozen=True, eq=False, init=False)
 class TabulatedDistance:
@@ -99,8 +101,7 @@ def _scaled_component(
     fields: Floats, chosen: Integers, label: Integers, component: int, rank: int
 ) -> tuple[Floats, Floats]:
     """Embedding (n, k) of one component, zero elsewhere, and its signature (k,)."""
-    own, there = np.flatnonzero(label[chosen] == component), label == component
-    square = fields[np.ix_(own, np.flatnonzero(there))] ** 2
+    own, there = np.flatnonzero(label[chosen] == component), np.flatnonzero(label == component)
     between = fields[np.ix_(own, chosen[own])] ** 2
     between = 0.5 * (between + between.T)
     centred = -0.5 * _centred(_centred(between).T)
@@ -108,9 +109,10 @@ def _scaled_component(
     order = np.argsort(-np.abs(values), kind="stable")[: max(1, min(rank, len(own) // 2))]
     order = order[np.abs(values[order]) > 1e-9 * np.abs(values).max()]
     values, vectors = values[order], vectors[:, order]
-    extended = -0.5 * _centred(square - between.mean(axis=1, keepdims=True))
-    embedding = np.zeros((len(label), len(order)))
-    embedding[there] = extended.T @ (vectors * (np.sign(values) / np.sqrt(np.abs(values))))
+    embedding, mean = np.zeros((len(label), len(order))), between.mean(axis=1, keepdims=True)
+    for some in np.split(there, range(COLUMNS, len(there), COLUMNS)):
+        extended = -0.5 * _centred(fields[np.ix_(own, some)] ** 2 - mean)
+        embedding[some] = extended.T @ (vectors * (np.sign(values) / np.sqrt(np.abs(values))))
     return embedding, np.sign(values)
 
 

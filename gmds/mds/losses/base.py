@@ -73,8 +73,9 @@ def _held(jacobian: Jacobian, step: Floats, ways: Floats) -> Floats | None:
         return None
     normal = slope[point, corner] / np.linalg.norm(slope[point, corner], axis=1, keepdims=True)
     held, whole = ways.copy(), np.eye(2)
-    for i, n in zip(point, normal, strict=True):
-        held[i] = whole - np.outer(n, n) if (held[i] == whole).all() else 0.0
+    along = whole - normal[:, :, None] * normal[:, None, :]
+    free = (held[point] == whole).all(axis=(1, 2)) & (np.bincount(point)[point] == 1)
+    held[point] = np.where(free[:, None, None], along, 0.0)
     return held
 
 

@@ -50,18 +50,24 @@ class Minimax:
         """
         highest = self.value(residuals)
         size = 4 * jacobian.n_points
-        active = np.sort(np.argsort(-np.abs(residuals), kind="stable")[:size])
+        active = _largest(np.abs(residuals), size)
         step = np.zeros((jacobian.n_points, 2))
         for _ in range(40):
             step, maximum = _program(jacobian, residuals, radius, active, highest)
             excess = np.abs(residuals + jacobian.apply(step)) - maximum
             excess[active] = 0
-            worst = np.argsort(-excess, kind="stable")[:size]
-            worst = worst[excess[worst] > 1e-5 * radius]
-            if len(worst) == 0:
+            over = np.flatnonzero(excess > 1e-5 * radius)
+            if len(over) == 0:
                 break
-            active = np.union1d(active, worst)
+            active = np.union1d(active, over[_largest(excess[over], size)])
         return step
+
+
+def _largest(values: Floats, count: int) -> Integers:
+    """The places of the `count` largest values, ascending."""
+    if count >= len(values):
+        return np.arange(len(values))
+    return np.sort(np.argpartition(-values, count)[:count])
 
 
 def _program(

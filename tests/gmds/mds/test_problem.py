@@ -264,6 +264,32 @@ def test_moments_and_frames_agree_with_a_dense_matrix(pairs: tuple[NDArray, NDAr
     np.testing.assert_allclose(changed[:, 1], np.einsum("rx,rxy->ry", blocks[:, 1], frames[second]))
 
 
+def test_chosen_pairs_are_those_of_all(distance: Distance, mesh: Mesh) -> None:
+    """Few pairs are measured one by one, many by products of matrices: the same numbers."""
+    points, chosen = inner_points(mesh, 20), np.array([[0, 3], [2, 17], [5, 19], [3, 11]])
+    every = Problem(distance, points, distance).at(inner_points(mesh, 20, seed=1))
+    some = Problem(distance, points, distance, pairs=chosen).at(inner_points(mesh, 20, seed=1))
+    place = [
+        int(np.flatnonzero((every.problem.first == i) & (every.problem.second == j))[0]) for i, j in np.sort(chosen)
+    ]
+    place.sort()
+    np.testing.assert_allclose(some.lengths, every.lengths[place], rtol=1e-9)
+    np.testing.assert_allclose(
+        some.residuals * some.problem.unit, every.residuals[place] * every.problem.unit, atol=1e-9
+    )
+    ratio = every.problem.unit / some.problem.unit
+    np.testing.assert_allclose(some.derivatives, every.derivatives[place] * ratio, rtol=1e-7, atol=1e-10)
+    np.testing.assert_allclose(every.lengths, every.distances[every.problem.first, every.problem.second], rtol=1e-9)
+
+
+def test_anchored_problems_have_the_pairs_of_the_first(mesh: Mesh) -> None:
+    distance = DISTANCES["commute time"](mesh)
+    problem = Problem(distance, inner_points(mesh, 9), distance)
+    part = problem.anchored(3)
+    assert len(part) == 9 and part.unit == problem.unit and (part.first < 3).all() and len(part.first) == 3 + 3 * 6
+    np.testing.assert_allclose(part.total_weights, [8, 8, 8, *[3] * 6])
+
+
 def test_sparse_rows_are_rows_of_the_jacobian(mesh: Mesh) -> None:
     distance = DISTANCES["commute time"](mesh)
     jacobian = Problem(distance, inner_points(mesh, 9), distance).at(inner_points(mesh, 9, seed=1)).jacobian

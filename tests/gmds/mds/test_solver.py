@@ -21,7 +21,9 @@ from geodesics import (
 from geodesics.tracing import walk
 from gmds.errors import SolverError
 from gmds.mds.descent import SHORTEST
+from gmds.mds.ladder import solve_by_ladder
 from gmds.mds.losses import ALL, Huber, LeastSquares, Loss, Minimax
+from gmds.mds.many_samples import MANY, solve_many
 from gmds.mds.multiresolution import solve_multiresolution
 from gmds.mds.problem import Problem
 from gmds.mds.prolongation import prolonged, relocated
@@ -179,6 +181,41 @@ def test_multiresolution_places_all_samples_from_a_few(commute: Distance) -> Non
     assert seen == sorted(seen) and seen[-1] == 1
     with pytest.raises(ValueError, match="0 of 80"):
         solve_multiresolution(Problem(commute, points, commute), points[:0])
+
+
+@pytest.mark.parametrize("loss", [LeastSquares(), Huber()])
+def test_many_samples_are_placed_by_the_first(commute: Distance, loss: Loss) -> None:
+    points = samples(commute, 200)
+    problem, start = Problem(commute, points, commute), shaken(points, 0.1)
+    found = solve_many(problem, start, loss, heads=40)
+    assert apart(found.points, points).max() < 1e-3
+    assert len(found.residuals) == 200 * 199 / 2
+
+
+def test_many_samples_end_about_as_low_as_all_at_once(commute: Distance, mesh: Mesh) -> None:
+    bent = Mesh(mesh.vertices * [1, 1.3, 0.8], mesh.faces)
+    there, points = CommuteTimeDistance(eigenpairs(bent, 30)), samples(commute, 150)
+    problem = Problem(commute, points, there)
+    start = shaken(SurfacePoints(bent, points.face, points.barycentric), 0.1)
+    assert solve_many(problem, start, heads=50).stress < 1.15 * solve(problem, start).stress
+
+
+def test_samples_that_the_first_do_not_reach_stay_where_they_started() -> None:
+    both = shapes.joined(shapes.bumpy_sphere(2), shapes.torus(24, 12))
+    distance = GeodesicDistance(embedded(both))
+    sphere = np.arange(shapes.bumpy_sphere(2).n_vertices)
+    chosen = np.concatenate([sphere[:20], [sphere[-1] + 1, sphere[-1] + 30]])
+    points = SurfacePoints.at_vertices(both, chosen)
+    found = solve_many(Problem(distance, points, distance), points, heads=20)
+    assert apart(found.points, points).max() < 1e-6
+
+
+def test_the_ladder_takes_many_samples_by_the_first(commute: Distance, monkeypatch: pytest.MonkeyPatch) -> None:
+    points = samples(commute, 60)
+    problem, start = Problem(commute, points, commute), shaken(points, 0.05)
+    monkeypatch.setattr("gmds.mds.ladder.MANY", 59)
+    found = solve_by_ladder(problem, start, LeastSquares())
+    assert found.stress == solve_many(problem, start).stress and MANY > 500
 
 
 def test_prolongation_finds_vertices_by_their_distances(distance: Distance) -> None:
