@@ -3,7 +3,7 @@
 import geodesics
 from geodesics import DiffusionDistance, eigenpairs, farthest_point_sampling, voronoi_cells
 from gmds.deformations import local_scaling
-from gmds.pictures.panels import write_values
+from gmds.pictures.values import write_values
 from gmds.shapes import quadruped
 
 before = quadruped(n_vertices=1500)

@@ -5,7 +5,7 @@ from scipy.optimize import linear_sum_assignment
 
 import geodesics
 from gmds.deformations import branch_log_scale, local_scaling
-from gmds.pictures.panels import write_values
+from gmds.pictures.values import write_values
 from gmds.shapes import quadruped
 
 before = quadruped(n_vertices=1500)

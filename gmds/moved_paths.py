@@ -112,7 +112,7 @@ MOVED: Mapping[str, tuple[str, ...]] = {
     "gmds.pair": ("gmds.matching.pair",),
     "gmds.pairing": ("gmds.registration.closest_points",),
     "gmds.pairwise": ("gmds.mds.pair_distances",),
-    "gmds.pictures": ("gmds.pictures.panels",),
+    "gmds.pictures": ("gmds.pictures.panels", "gmds.pictures.values"),
     "gmds.placed_landmarks": ("gmds.landmarks.placed",),
     "gmds.problem": (
         "gmds.mds.problem",

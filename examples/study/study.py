@@ -21,7 +21,7 @@ from gmds.batch import local_client
 from gmds.files.table import write_table
 from gmds.morphometrics.components import principal_components
 from gmds.morphometrics.group_tests import design, point_tests, shape_test
-from gmds.pictures.panels import write_values
+from gmds.pictures.values import write_values
 
 
 def study(out: Path, count: int = 12, n_vertices: int = 1500, client: Any = None) -> dict[str, float]:

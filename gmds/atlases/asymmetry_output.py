@@ -17,7 +17,7 @@ def write_asymmetry(found: Asymmetry, names: Sequence[str], folder: Path) -> Non
 
     Raises `MissingExtra` (E602) without the extra `viz`, `OSError`.
     """
-    from gmds.pictures.panels import write_values
+    from gmds.pictures.values import write_values
 
     folder.mkdir(parents=True, exist_ok=True)
     known = [None if not np.isfinite(x) else float(x) for x in found.signed.T.ravel()]
@@ -37,4 +37,4 @@ def write_asymmetry(found: Asymmetry, names: Sequence[str], folder: Path) -> Non
     shown = [("directional", found.symmetric, found.directional)]
     if np.isfinite(found.fluctuating).any():
         shown.append(("fluctuating (s.d.)", found.symmetric, found.fluctuating))
-    write_values(folder / "asymmetry.png", shown, pixels=460, title="Asymmetry, outward / √area")
+    write_values(folder / "asymmetry.png", shown, signed=True, label="outward / √area", pixels=460, title="Asymmetry")

@@ -19,7 +19,7 @@ def write_tests(tests: Mapping[str, ShapeTest], points: PointTests | None, mean:
 
     Raises `MissingExtra` (E602) without the extra `viz`, `OSError`.
     """
-    from gmds.pictures.panels import write_values
+    from gmds.pictures.values import write_values
 
     folder.mkdir(parents=True, exist_ok=True)
     rows = ([name, one.r_squared, one.f, one.p, one.permutations] for name, one in tests.items())
@@ -33,4 +33,6 @@ def write_tests(tests: Mapping[str, ShapeTest], points: PointTests | None, mean:
     shown = [("slope of growth", mean, points.slope)]
     if np.isfinite(found).any():
         shown.append((f"where q < {DISCOVERY}", mean, found))
-    write_values(folder / "points.png", shown, pixels=460, title="Growth, as a logarithm")
+    write_values(
+        folder / "points.png", shown, signed=True, label="log of the change of length", pixels=460, title="Growth"
+    )

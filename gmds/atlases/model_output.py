@@ -65,7 +65,7 @@ def _write_components(model: ShapeModel, path: Path) -> None:
 
 
 def _write_picture(model: ShapeModel, path: Path, shown: int) -> None:
-    from gmds.pictures.panels import write_values
+    from gmds.pictures.values import write_values
 
     panels = []
     for number in range(shown):
@@ -73,4 +73,4 @@ def _write_picture(model: ShapeModel, path: Path, shown: int) -> None:
         for sign in (-1, 1):
             caption = f"component {number + 1} ({share:.0%}), {sign * DEVIATIONS:+g} s.d."
             panels.append((caption, moved_by(model, number, sign * DEVIATIONS), sign * values))
-    write_values(path, panels, pixels=340, title="Outward movement by 1 s.d. / √area")
+    write_values(path, panels, signed=True, label="outward / √area", pixels=340, title="Outward movement by 1 s.d.")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -60,18 +60,22 @@ def write_field(path: Path, arrays: Mapping[str, NDArray[Any]], columns: Mapping
 
 def draw(
     path: Path | None,
-    surfaces: list[tuple[str, Mesh, NDArray[np.generic]]],
+    surfaces: Sequence[tuple[str, Mesh, NDArray[Any]]],
     *,
-    labels: bool = False,
+    name: Path,
     marked: NDArray[np.generic] | None = None,
+    **options: Any,
 ) -> None:
     """The picture of (caption, mesh, values) that was asked for, named on stderr once it is written.
 
-    `marked`: vertices that get a little ball, on each.
+    `name`: the file of the mesh, whose ending says what is up; `marked`: vertices that get a little ball, on each;
+    `options`: of `gmds.pictures.write_values`.
     """
     if path is None:
         return
-    from gmds.pictures.panels import write_values
+    from gmds.cli.directions import upwards
+    from gmds.pictures.values import write_values
 
     balls = None if marked is None else [marked] * len(surfaces)
-    tell_written(path, write_values(path, surfaces, labels=labels, marked=balls))
+    up = upwards(None, str(name))
+    tell_written(path, write_values(path, surfaces, marked=balls, up=up, **options))

@@ -9,10 +9,10 @@ from typing import Any
 
 import click
 
+from gmds.cli.directions import upwards
 from gmds.cli.group import UNFINISHED
 from gmds.cli.landmark_options import landmarks_of
 from gmds.cli.output import emit, note, progress_bar
-from gmds.cli.view_options import upwards
 
 
 def landmark_collection(folder: Path, template: Path, landmarks: Path, output: Path, **options: Any) -> None:

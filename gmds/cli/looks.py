@@ -11,7 +11,7 @@ from gmds.cli.output import note
 
 if TYPE_CHECKING:
     from gmds import Correspondence
-    from gmds.appearance import Polygons
+    from gmds.appearance import Look, Polygons
 
 COLOURS = "by interpolation, as colours"
 
@@ -61,8 +61,8 @@ def scene_carried(answer: Correspondence, file: Path, output: Path, rig: bool, m
 
 def look_carried(
     answer: Correspondence, file: Path, texture: Path | None, output: Path, polygons: Polygons | None
-) -> dict[str, Any]:
-    """Colours or texture of a file of the target, to a mesh with these faces; what was done."""
+) -> tuple[dict[str, Any], Look, Look]:
+    """Colours or texture of a file of the target, to a mesh with these faces; what was done, and both looks."""
     from gmds.appearance import Look, carry_names, carry_uv, read_look, write_look
 
     look = read_look(file, answer.target, texture)
@@ -74,13 +74,15 @@ def look_carried(
         note(f"{', '.join(names.libraries)} is named in {output.name} and not copied; lay it beside")
     if look.uv is not None:
         uv, across = carry_uv(answer, look.uv)
-        files = write_look(output, answer.source, Look(uv=uv, image=look.image, names=names), polygons=polygons)
+        carried = Look(uv=uv, image=look.image, names=names)
+        files = write_look(output, answer.source, carried, polygons=polygons)
         if look.image is None:
             note(f"{file} has no image inside; give it with --texture")
         result |= {"carried": "texture", "files": [str(file) for file in files]}
-        return result | {"faces_on_seams": int(across.sum())}
+        return result | {"faces_on_seams": int(across.sum())}, look, carried
     if look.colours is None and names is None:
         raise click.UsageError(f"{file} has neither colours nor texture coordinates; give --values")
     colours = None if look.colours is None else answer.transfer(look.colours)
-    write_look(output, answer.source, Look(colours=colours, names=names), polygons=polygons)
-    return result | {"carried": "names" if colours is None else COLOURS}
+    carried = Look(colours=colours, names=names)
+    write_look(output, answer.source, carried, polygons=polygons)
+    return result | {"carried": "names" if colours is None else COLOURS}, look, carried

@@ -8,13 +8,12 @@ from typing import Any
 
 import click
 
+from gmds.cli.directions import UP, upwards
 from gmds.cli.fields import PICTURES
 from gmds.cli.output import note, tell_written
 from gmds.cli.paths import EndingIn, OutputFile
 
 FILE = click.Path(path_type=Path)
-Y_UP = (".obj", ".glb", ".gltf")  # where the format, or the custom, has y pointing up
-UP = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 
 report_option = click.option("--report", type=OutputFile(), help="Write a page to turn both surfaces in a browser.")
 picture_option = click.option(
@@ -35,11 +34,6 @@ up_option = click.option(
 def view_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """The options --report, --picture, --show and --up."""
     return report_option(picture_option(show_option(up_option(command))))
-
-
-def upwards(up: str | None, name: str) -> tuple[int, int, int]:
-    """What is up in a mesh: the axis that was said, else the one of its format."""
-    return UP[up or ("y" if Path(name).suffix.lower() in Y_UP else "z")]
 
 
 def write_views(

@@ -12,6 +12,7 @@ from geodesics.arrays import Floats
 from geodesics.errors import MissingExtra
 from geodesics.extras import how_to_install
 from gmds.comparison.clustering import families, leaf_order, plane_map, tree
+from gmds.comparison.labels import place_labels
 from gmds.pictures.colours import label_colours
 
 # all three set by hand, so that words do not cover each other
@@ -52,10 +53,11 @@ def comparison_figure(names: Sequence[str], matrix: Floats, pictures: Sequence[F
     middle.set_yticks([])
     if len(names) <= MOST_NUMBERED:
         _write_values(middle, matrix[np.ix_(order, order)])
-    figure.colorbar(shown, ax=middle, fraction=0.04, pad=0.02)
-    _draw_map(right, names, family, plane_map(matrix), colours, title)
+    figure.colorbar(shown, ax=middle, fraction=0.04, pad=0.02, label="share by which distances differ")
+    labels = _draw_map(right, names, family, plane_map(matrix), colours, title)
     for axis, text in ((left, "tree"), (middle, "dissimilarity"), (right, "map (classical multidimensional scaling)")):
         axis.set_title(text, fontsize=title)
+    place_labels(figure, right, labels, plane_map(matrix))
     return figure
 
 
@@ -104,27 +106,30 @@ def _draw_map(
     places: Floats,
     colours: Floats,
     size: float,
-) -> None:
+) -> list[Any]:
     """The map, with the names of all shapes; of many, those of the families, of this size, where they are clear."""
+    written = []
     axis.scatter(*places.T, c=colours, s=26, edgecolors="white", linewidths=0.5)
     if len(names) <= MOST_LABELS:
         for name, place, colour in zip(names, places, colours, strict=True):
-            _write(axis, name, place, 0.65 * colour, 8)
+            written.append(_write(axis, name, place, 0.65 * colour, 8))
     else:
         label = np.asarray(family)
         for name in sorted(set(family)):
             ours, others = places[label == name], places[label != name]
             clear = np.linalg.norm(ours[:, None] - others, axis=2).min(axis=1, initial=np.inf).argmax()
-            _write(axis, name, ours[clear], 0.6 * colours[label == name][0], size)
+            written.append(_write(axis, name, ours[clear], 0.6 * colours[label == name][0], size))
     axis.set_aspect("equal", adjustable="datalim")
     axis.set_box_aspect(1)
     axis.margins(0.2 if len(names) <= MOST_LABELS else 0.1)
     axis.locator_params(nbins=6)
+    return written
 
 
-def _write(axis: Any, text: str, place: Floats, colour: Floats, size: float) -> None:
+def _write(axis: Any, text: str, place: Floats, colour: Floats, size: float) -> Any:
     from matplotlib.patheffects import withStroke
 
     halo = [withStroke(linewidth=2, foreground="white")]
     shift = {"xytext": (4, 4), "textcoords": "offset points"}
-    axis.annotate(text, place, color=colour, fontsize=size, path_effects=halo, **shift)
+    leader = {"arrowstyle": "-", "color": colour, "linewidth": 0.6, "shrinkA": 0, "shrinkB": 3}
+    return axis.annotate(text, place, color=colour, fontsize=size, path_effects=halo, arrowprops=leader, **shift)

@@ -13,6 +13,7 @@ from geodesics.errors import BadArgument
 LEAST_REACH = 0.05  # either side of the middle of a range of growth: less is the error of a map (results/growth.md)
 MISSING = (0.62, 0.62, 0.62)  # sRGB, grey for what has no counterpart or no value; set by hand
 
+BELOW, ABOVE = (-0.02, -0.15), (0.09, 0.10)  # a and b of OKLab at either end, blue and orange; set by hand
 # "cividis" (Nunez, Anderton, Renslow 2018) at ten even steps
 _CIVIDIS = np.array(
     [
@@ -78,6 +79,21 @@ def value_colours(values: ArrayLike, low: float, high: float) -> Floats:
     t = np.where(fine, (np.where(fine, v, low) - low) / span, 0).clip(0, 1) * (len(_CIVIDIS) - 1)
     steps = np.arange(len(_CIVIDIS))
     colours = np.stack([np.interp(t, steps, channel) for channel in _CIVIDIS.T], axis=1)
+    colours[~fine] = MISSING
+    return colours
+
+
+def diverging_colours(values: ArrayLike, reach: float) -> Floats:
+    """Colours (n, 3) from blue at -`reach` through white at 0 to orange at `reach`; grey where a value is not finite.
+
+    Lightness falls alike on both sides, and those who confuse red and green see blue and orange apart.
+    """
+    v = np.asarray(values, dtype=np.float64)
+    fine = np.isfinite(v)
+    t = np.where(fine, v, 0) / (reach if reach > 0 else 1.0)
+    size = np.abs(t).clip(0, 1)
+    hue = np.where((t < 0)[:, None], BELOW, ABOVE)
+    colours = _oklab_to_rgb(np.concatenate([(0.97 - 0.47 * size)[:, None], size[:, None] * hue], axis=1))
     colours[~fine] = MISSING
     return colours
 

@@ -13,7 +13,7 @@ import numpy as np
 from geodesics.arrays import Floats
 from geodesics.errors import MissingExtra
 from geodesics.extras import how_to_install
-from gmds.pictures.colours import value_colours
+from gmds.pictures.colours import diverging_colours, value_colours
 from gmds.pictures.software import Shot
 
 Limits = tuple[float, float]
@@ -26,15 +26,21 @@ FORMATS: dict[str, dict[str, Any]] = {
     ".svg": {"metadata": {"Date": None}},
     ".pdf": {"metadata": {"CreationDate": None}},
 }
+BAR = 88  # pixels for a colour bar, its numbers and its label; set by hand
 DOTS = 100  # per inch: matplotlib measures in inches, and texts are as large beside the views as at that resolution
 
 
 class Panel(NamedTuple):
-    """One part of a picture: its caption, what is drawn, and the range of its colour bar if it has one."""
+    """One part of a picture: its caption, what is drawn, and the range of its colour bar if it has one.
+
+    The bar has a label, which says the unit; `signed` ones go from below 0 to as far above it.
+    """
 
     caption: str
     shot: Shot
     limits: Limits | None = None
+    label: str = ""
+    signed: bool = False
 
 
 def composed(panels: Sequence[Panel], images: Sequence[Floats], title: str = "") -> Any:
@@ -45,7 +51,7 @@ def composed(panels: Sequence[Panel], images: Sequence[Floats], title: str = "")
     except ImportError as error:
         raise MissingExtra(f"a picture needs matplotlib; install it with: {how_to_install('viz')}") from error
 
-    boxes = [image.shape[1] + (70 if panel.limits else 0) for panel, image in zip(panels, images, strict=True)]
+    boxes = [image.shape[1] + (BAR if panel.limits else 0) for panel, image in zip(panels, images, strict=True)]
     width, tallest, head = sum(boxes), max(image.shape[0] for image in images), 60 if title else 34
     height = tallest + head
     figure = Figure(figsize=(width / DOTS, height / DOTS), dpi=DOTS)
@@ -61,7 +67,7 @@ def composed(panels: Sequence[Panel], images: Sequence[Floats], title: str = "")
         figure.text(*where, panel.caption, ha="center", va="bottom", parse_math=False)
         if panel.limits is not None:
             bar = figure.add_axes(((left + columns) / width, 0.2, 14 / width, 0.5))
-            _colour_bar(figure, bar, panel.limits)
+            _colour_bar(figure, bar, panel)
         left += box
     figure.text(0.5, 1 - 6 / height, title, ha="center", va="top", size="large", parse_math=False)
     return figure
@@ -85,9 +91,12 @@ def encoded(figure: Any, ending: str) -> bytes:
     return stream.getvalue()
 
 
-def _colour_bar(figure: Any, axis: Any, limits: Limits) -> None:
+def _colour_bar(figure: Any, axis: Any, panel: Panel) -> None:
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import ListedColormap, Normalize
 
-    ramp = ListedColormap(value_colours(np.linspace(0, 1, 256), 0, 1))
-    figure.colorbar(ScalarMappable(Normalize(*limits), ramp), cax=axis).ax.tick_params(labelsize=8)
+    steps = np.linspace(-1, 1, 256)
+    ramp = ListedColormap(diverging_colours(steps, 1) if panel.signed else value_colours(steps, -1, 1))
+    bar = figure.colorbar(ScalarMappable(Normalize(*(panel.limits or (0, 1))), ramp), cax=axis)
+    bar.ax.tick_params(labelsize=8)
+    bar.set_label(panel.label.replace("$", r"\$"), fontsize=8)

@@ -52,6 +52,8 @@ class Shot:
         The longer side of the image.
     sharp : bool
         Gives each place the colour of the nearest corner instead of a blend.
+    smooth : array of shape (n, 3), optional
+        Unit normals of the vertices, where the mesh is cut so that its own would show every face.
     """
 
     mesh: Mesh
@@ -59,6 +61,7 @@ class Shot:
     rotation: Floats
     pixels: int = 600
     sharp: bool = False
+    smooth: Floats | None = None
 
     def frame(self, oversampling: int) -> Frame:
         """The image with so many times the pixels across: parallel projection, a margin of 3 % around the faces."""
@@ -76,7 +79,9 @@ class Shot:
     @cached_property
     def normals(self) -> Floats:
         """Unit normals (n, 3) of the vertices as the camera sees them."""
-        return np.asarray(vertex_normals(self.mesh) @ self.rotation.T, dtype=np.float64)
+        return np.asarray(
+            (vertex_normals(self.mesh) if self.smooth is None else self.smooth) @ self.rotation.T, dtype=np.float64
+        )
 
 
 def software(shots: Sequence[Shot]) -> list[Floats]:

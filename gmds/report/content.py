@@ -15,7 +15,15 @@ from gmds.maps.growth import growth_of
 from gmds.maps.images import preimage
 from gmds.maps.overlap import reach
 from gmds.maps.point_map import Candidate, MatchStatus, PointMap
-from gmds.pictures.colours import MISSING, nearest_known, position_colours, shown_range, symmetric_reach, value_colours
+from gmds.pictures.colours import (
+    MISSING,
+    diverging_colours,
+    nearest_known,
+    position_colours,
+    shown_range,
+    symmetric_reach,
+    value_colours,
+)
 from gmds.report.drawing import Drawing
 from gmds.report.landmarks import Both, NamedPair, landmarks_of, places
 from gmds.report.modes import SIGNED, TOPS, modes
@@ -48,6 +56,7 @@ def content(
         "landmarks": [{"name": name, "at": places(at, drawn)} for name, *at in given],
         "colours": levels(position_colours(answer.target.vertices)[drawn[1].origin]),
         "ramp": levels(value_colours(np.linspace(0, 1, 128), 0, 1)),
+        "signedRamp": levels(diverging_colours(np.linspace(-1, 1, 129), 1)),
         "missing": levels(np.array(MISSING)).tolist(),
         "thresholds": THRESHOLDS.tolist(),
     }

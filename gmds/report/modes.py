@@ -24,7 +24,7 @@ VALID = "Which points of either surface have a partner. Those without are on a p
 LOOK = {
     "confidence": " Yellow is where to look first.",
     "distortion": " Where one animal has a longer neck than the other, they have to. Yellow changes most.",
-    "growth": " Yellow became longer than the whole did, blue shorter.",
+    "growth": " Orange became longer than the whole did, blue shorter; white grew as the whole did.",
     "error": " Dark blue is right, yellow is wrong.",
 }
 SPARSE = " The truth is known at {} points, drawn as dots; all others have the colour of the nearest of them."

@@ -41,7 +41,8 @@ class Page {
 
   // the colour of a value; grey where there is none
   ramp(value, mode) {
-    const { ramp, missing } = this.data;
+    const { missing } = this.data;
+    const ramp = mode.signed ? this.data.signedRamp : this.data.ramp;
     if (!Number.isFinite(value)) return missing;
     const part = value / this.top(mode);
     const share = Math.min(Math.max(mode.signed ? (1 + part) / 2 : part, 0), 1);
@@ -125,6 +126,7 @@ class Page {
     at("low").textContent = mode.signed ? figureShort(-top) : "0";
     at("high").textContent = `${figureShort(top)}${map.largest[mode.key] > top * 1.0001 ? " and more" : ""}`;
     at("ramp").classList.toggle("reversed", Boolean(mode.reversed));
+    at("ramp").classList.toggle("signed", Boolean(mode.signed));
   }
 
   // the badge, the figures and the advice are those of the map that is shown

@@ -18,7 +18,7 @@ from geodesics.errors import BadArgument
 from geodesics.io import atomic_write
 from gmds.maps.point_map import PointMap
 from gmds.pictures.camera import Direction, alignment, broadside
-from gmds.pictures.colours import MISSING, css, value_colours
+from gmds.pictures.colours import MISSING, css, diverging_colours, value_colours
 from gmds.report import tables
 from gmds.report.content import NamedPair, content
 from gmds.report.drawing import Drawing, drawing
@@ -109,12 +109,14 @@ def page_text(
     data = {**content(answer, errors, drawn, names, landmarks), "work": work.data}
     script = "".join(map(_part, SCRIPTS)).replace("\nstart().catch", f"\n{work.scripts}\nstart().catch")
     ramp = ", ".join(css(value_colours(np.linspace(0, 1, 10), 0, 1)))
+    signed = ", ".join(css(diverging_colours(np.linspace(-1, 1, 11), 1)))
     legend = np.array([MATCHED_COLOUR, UNMATCHED_COLOUR])
     best = data["maps"][0]["told"]
     return Template(_part("report.html")).substitute(
         hashes=fingerprint_of(script),
         policy=work.policy,
-        style=Template(_part("report.css")).substitute(ramp=ramp, missing=css(np.array([MISSING]))[0]) + work.style,
+        style=Template(_part("report.css")).substitute(ramp=ramp, signed=signed, missing=css(np.array([MISSING]))[0])
+        + work.style,
         title=html.escape(title),
         badge=best["badge"],
         verdict=best["verdict"],

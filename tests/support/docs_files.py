@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
 import gmds
 from geodesics import Mesh, SurfacePoints
+from geodesics.arrays import Floats
 from gmds import Correspondence
 from gmds.matching.pipeline import SAMPLES
+from gmds.pictures.software import Shot, software
 from gmds.shapes import Figure, quadruped, truth
 
 N = 300  # vertices; fewer are matched badly
@@ -20,6 +22,11 @@ def small_pair() -> tuple[Figure, Figure, SurfacePoints]:
     """As `gmds.shapes.demo_pair`, with fewer vertices."""
     source, target = quadruped(n_vertices=N), quadruped("walk", head_scale=2.0, n_vertices=N + 10, seed=1)
     return source, target, truth(source, target)
+
+
+def small_pictures(shots: Sequence[Shot]) -> list[Floats]:
+    """In place of pyvista, which takes a second a picture in a process of its own: so small that it takes none."""
+    return software([replace(shot, pixels=40) for shot in shots])
 
 
 def remembering(match: Callable[..., Correspondence]) -> Callable[..., Correspondence]:

@@ -82,7 +82,9 @@ def command(
         "cpu_seconds": time.process_time() - started,
     }
     emit(result, as_json)
-    draw(picture, [(f"{distance} distance, {metric} metric", surface, field.min(axis=0))], marked=points)
+    shown = [(f"{distance} distance, {metric} metric", surface, field.min(axis=0))]
+    unit = "distance, in units of the mesh" if metric == "embedded" and distance == "geodesic" else "distance"
+    draw(picture, shown, name=mesh, marked=points, label=unit, isolines=True)
 
 
 def _vertices(text: str, distance: Distance) -> Integers:

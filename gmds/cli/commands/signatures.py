@@ -90,7 +90,8 @@ def command(
     }
     emit(result, as_json)
     shown = sorted({i * (len(names) - 1) // (PICTURED - 1) for i in range(PICTURED)})
-    draw(picture, [(f"{kind}, {names[i]}", surface, _in_own_range(signature[:, i])) for i in shown])
+    panels = [(f"{kind}, {names[i]}", surface, _in_own_range(signature[:, i])) for i in shown]
+    draw(picture, panels, name=mesh, label="from the 2nd to the 98th percentile of each")
 
 
 def _signature(

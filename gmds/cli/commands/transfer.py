@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from gmds.cli.fields import FILE, draw, picture_option, write_field
+from gmds.cli.fields import FILE, picture_option, write_field
 from gmds.cli.group import Command
 from gmds.cli.looks import COLOURS, is_scene, look_carried, scene_carried, tell_what_is_lost, tell_what_is_rounded
+from gmds.cli.looks_drawn import draw_looks, draw_values
 from gmds.cli.output import emit, json_option, note, valid_count
 from gmds.cli.paths import EndingIn
 
@@ -72,7 +73,8 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
     A .npy holds an array with a row for every vertex; text has a line for every vertex, entries with commas (.csv) or
     blanks (.txt) between them, and perhaps a header, whose first column may be `vertex`, as in the files that gmds
     writes. Vertices without a counterpart (not valid in the map) get the values at the point that the map holds for
-    them all the same. The picture shows the first column.
+    them all the same. The picture shows colours and textures as they are, all bones by a colour each, mixed as their
+    weights are, and else the first column.
 
     The output is an array (.npy), a table (.csv), or the source with the values on its vertices: .ply and .vtp keep
     all of them (words by number, which is told), .obj and .glb colours. Without --values the look of the target's file
@@ -104,25 +106,39 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
     if options["rig"] and (options["values"] or output.suffix.lower() != ".glb" or not is_scene(look)):
         raise click.UsageError("--rig carries what is in a .glb to a .glb, without --values")
     if options["values"] is None:
-        if options["kind"] or options["labels"] or options["picture"]:
-            raise click.UsageError("--kind, --labels and --picture are for --values")
+        if options["kind"] or options["labels"]:
+            raise click.UsageError("--kind and --labels are for --values")
         kept = output.suffix.lower() == ".glb" and is_scene(look) and not options["texture"]
         if options["most"] and not (kept and options["rig"]):
             raise click.UsageError("--most is for --kind weights, and for --rig")
-        if kept:
-            result |= scene_carried(answer, look, output, options["rig"], options["most"])
-        else:
-            result |= look_carried(answer, look, options["texture"], output, polygons)
+        result |= _carry_look(answer, look, output, polygons, {**options, "source": source, "kept": kept})
     else:
         if options["most"] and kind != "weights":
             raise click.UsageError("--most is for --kind weights, and for --rig")
-        result |= _carry_values(answer, kind, output, polygons, options)
+        result |= _carry_values(answer, kind, output, polygons, {**options, "source": source})
     if is_mesh:
         tell_what_is_lost(source, polygons=output.suffix.lower() != ".glb")
         named = output.suffix.lower() == ".obj" and options["values"] is None
         tell_what_is_lost(look, materials=kept, names=named, rig=kept and options["rig"])
         tell_what_is_rounded(answer, output, centered=not kept)
     emit({**result, **valid_count(answer, as_json)}, as_json)
+
+
+def _carry_look(
+    answer: Correspondence, look: Path, output: Path, polygons: Polygons | None, options: dict[str, Any]
+) -> dict[str, Any]:
+    """What a file looks like, to a mesh; what was done."""
+    from gmds.appearance import read_look
+
+    picture, source = options["picture"], options["source"]
+    if not options["kept"]:
+        told, *looks = look_carried(answer, look, options["texture"], output, polygons)
+        draw_looks(picture, answer, source, *looks)
+        return told
+    told = scene_carried(answer, look, output, options["rig"], options["most"])
+    if picture:
+        draw_looks(picture, answer, source, read_look(look, answer.target), read_look(output, answer.source))
+    return told
 
 
 def _carry_values(
@@ -157,10 +173,7 @@ def _carry_values(
     else:
         names = ["value"] if table.shape[1] == 1 else [f"value_{i}" for i in range(table.shape[1])]
         write_field(output, {"values": carried}, dict(zip(names, table.T, strict=True)))
-    labels = kind == "labels"
-    shown = _shown(given.reshape(len(given), -1)[:, 0], table[:, 0], labels=labels)
-    captions = "target, values given", "source, values carried"
-    draw(options["picture"], list(zip(captions, (answer.target, answer.source), shown, strict=True)), labels=labels)
+    draw_values(options["picture"], answer, options["source"], kind, (given.reshape(len(given), -1), table))
     return result
 
 
@@ -182,13 +195,3 @@ def _as_colours(given: NDArray[Any], file: Path) -> NDArray[np.uint8]:
     if given.ndim != 2 or given.shape[1] not in (3, 4) or not ((given >= 0) & (given <= 255)).all():
         raise click.UsageError(f"{file}: colours are three or four columns of numbers from 0 to 255")
     return np.rint(given).astype(np.uint8)
-
-
-def _shown(given: NDArray[Any], carried: NDArray[Any], *, labels: bool) -> tuple[NDArray[np.generic], ...]:
-    """What the picture shows of both: numbers (the real part), or for every label its place among all labels."""
-    import numpy as np
-
-    if not labels:
-        return given.real, carried.real
-    place = np.unique(np.concatenate([given, carried]), return_inverse=True)[1].reshape(-1)
-    return place[: len(given)], place[len(given) :]

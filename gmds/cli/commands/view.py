@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from gmds.cli.directions import upwards
 from gmds.cli.group import Command
 from gmds.cli.landmark_options import landmarks_of, space_option
 from gmds.cli.output import note
-from gmds.cli.view_options import up_option, upwards
+from gmds.cli.view_options import up_option
 
 if TYPE_CHECKING:
     from geodesics import Mesh

@@ -67,4 +67,4 @@ def command(
     }
     emit(result, as_json)
     caption = f"{samples} cells, {distance} distance, {metric} metric"
-    draw(picture, [(caption, surface, cells.nearest)], labels=True, marked=cells.samples)
+    draw(picture, [(caption, surface, cells.nearest)], name=mesh, labels=True, marked=cells.samples)

@@ -19,8 +19,9 @@ from gmds.pictures.camera import alignment, broadside
 from gmds.pictures.colours import MISSING, css, label_colours, position_colours, value_colours
 from gmds.pictures.figure import FORMATS
 from gmds.pictures.offscreen import offscreen
-from gmds.pictures.panels import INK, map_panels, write_picture, write_values
+from gmds.pictures.panels import map_panels, write_picture
 from gmds.pictures.software import Shot, render, software, view_rotation
+from gmds.pictures.values import INK, write_values
 from gmds.shapes import quadruped, truth
 
 
