@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from geodesics import SurfacePoints
+from geodesics import Mesh, SurfacePoints
 from geodesics.arrays import Floats, Integers
 from geodesics.barycentric import combination
 from geodesics.caching import memoized
@@ -17,6 +17,8 @@ from gmds.correspondence import Correspondence
 from gmds.landmarks.constraints import LandmarkConstraints, WeightedCorners
 from gmds.maps.point_map import Candidate
 from gmds.registration.deformable import DeformableMesh
+from gmds.registration.register import settled
+from gmds.registration.settings import AFFINE_AGAIN
 from gmds.spectral.orientation import orientation_score
 from gmds.surface.measured import Surface, measured_as_it_is, on_original
 
@@ -24,6 +26,8 @@ from gmds.surface.measured import Surface, measured_as_it_is, on_original
 # as copies instead of 31 (benchmarks/results/notes.md, "Speed of a match").
 WORKING = 5000
 LARGE = 8000
+MOST_LAID = 200_000  # vertices of a source that is laid in space with all of them: 80,000 take 6 CPU s; set by hand
+MIRROR = (-1.0, 1.0, 1.0)
 
 
 def copied(surface: Surface, n_vertices: int) -> Surface:
@@ -70,17 +74,20 @@ class CoarseCopies:
         """A map between the copies as one between the whole surfaces.
 
         A vertex goes with the point of the copy that it is closest to, and from there to the closest point, in position
-        and normal, of the whole target. Candidates go the same way.
+        and normal, of the whole target. Candidates go the same way. Where the copy was laid in space, all of the source
+        is laid there once more, if it has at most `MOST_LAID` vertices.
         """
         face, weights, _ = closest_on_triangles(self.source.mesh.vertices, self._places[0], answer.source.faces)
         corners = answer.source.faces[face]
         share = combination(weights, answer.valid[corners].astype(np.float64))
+        laid = answer.meta.get("evidence", {}).get("laid_in_space", False) and len(face) <= MOST_LAID
+        sent = self._laid if laid else self._sent
         used = np.zeros(self.source.mesh.n_vertices, dtype=bool)
         used[np.unique(self.source.mesh.faces)] = True
         return Correspondence(
             source=self.source.original,
             target=self.target.original,
-            points=self._sent(answer.points, corners, weights),
+            points=sent(answer.points, corners, weights),
             valid=used & (share > 0.5),
             distortion=combination(weights, answer.distortion[corners]),
             confidence=combination(weights, answer.confidence[corners]),
@@ -103,18 +110,32 @@ class CoarseCopies:
 
     def _sent(self, points: SurfacePoints, corners: Integers, weights: Floats) -> SurfacePoints:
         """Where weighted corners (n, 3) of the copy of the source go on the whole target, if `points` is the map."""
-        here, there = _whole(self.source), _whole(self.target)
-        ends = points.interpolate(self._places[1])
-        y = combination(weights, ends[corners])
+        here, there, y = self._moved(points, corners, weights)
         features = here.moved_features(y)
-        turned = orientation_score(here.mesh, there.mesh, y, there.normals[there.places.query(y, workers=threads())[1]])
-        features[:, 3:] *= np.sign(turned) or 1.0
         near = there.usable[there.tree.query(features, workers=threads())[1]]
         return on_original(self.target, there.closest(features, there.features, near))
+
+    def _laid(self, points: SurfacePoints, corners: Integers, weights: Floats) -> SurfacePoints:
+        """The same, of a source that lies there nearly as it is."""
+        return on_original(self.target, settled(*self._moved(points, corners, weights), AFFINE_AGAIN).points)
+
+    def _moved(
+        self, points: SurfacePoints, corners: Integers, weights: Floats
+    ) -> tuple[DeformableMesh, DeformableMesh, Floats]:
+        """All of the source, mirrored if the map `points` mirrors it, all of the target, and where the one lies."""
+        here, there = _whole(self.source), _whole(self.target)
+        y = combination(weights, points.interpolate(self._places[1])[corners])
+        normals = there.normals[there.places.query(y, workers=threads())[1]]
+        if orientation_score(here.mesh, there.mesh, y, normals) < 0:
+            here = _whole_of(Mesh(here.mesh.vertices * MIRROR, here.mesh.faces[:, ::-1]))
+        return here, there, y
 
 
 @memoized
 def _whole(surface: Surface) -> DeformableMesh:
     """All of a surface; maps are prolonged without its curvature."""
-    n = surface.mesh.n_vertices
-    return DeformableMesh(surface.mesh, np.arange(n), np.zeros(n))
+    return _whole_of(surface.mesh)
+
+
+def _whole_of(mesh: Mesh) -> DeformableMesh:
+    return DeformableMesh(mesh, np.arange(mesh.n_vertices), np.zeros(mesh.n_vertices))

@@ -40,7 +40,11 @@ def correspondence_of(placed: Sequence[MapCandidate], meta: Mapping[str, Any]) -
     """The best map as a `Correspondence` between the original meshes, the others as its candidates."""
     best = placed[0]
     source, target, margin = best.pair.source, best.pair.target, _margin(placed)
-    evidence = {**best.evidence.as_meta(), "margin": min(margin, MARGIN_OF_THE_ONLY)}
+    evidence = {
+        **best.evidence.as_meta(),
+        "margin": min(margin, MARGIN_OF_THE_ONLY),
+        "laid_in_space": best.laid is not None,
+    }
     candidates = tuple(Candidate(original_points(e), e.evidence.stress, e.evidence.orientation) for e in placed[1:])
     confidence, valid = confidence_of(best, margin), _valid(best)
     expected = expected_share(confidence, best.pair.full[0].areas, valid)
