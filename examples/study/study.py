@@ -21,6 +21,7 @@ from gmds.batch import local_client
 from gmds.files.table import write_table
 from gmds.morphometrics.components import principal_components
 from gmds.morphometrics.group_tests import design, point_tests, shape_test
+from gmds.morphometrics.hotelling import hotelling_test
 from gmds.pictures.values import write_values
 
 
@@ -41,7 +42,8 @@ def study(out: Path, count: int = 12, n_vertices: int = 1500, client: Any = None
     growth = atlas.growth
     columns = design([known[name].species for name in atlas.names])
     whole = np.isfinite(growth).all(axis=0)
-    tests = {"shape": shape_test(atlas.superposition.aligned, columns), "growth": shape_test(growth[:, whole], columns)}
+    told = {"shape": atlas.superposition.aligned, "growth": growth[:, whole]}
+    tests = {name: (shape_test(x, columns), hotelling_test(x, columns)) for name, x in told.items()}
     points = point_tests(growth, columns[:, 0])
     write_tests(tests, points, atlas.mean, out / "groups")
     first = write_first_component(out, atlas, growth)
@@ -81,7 +83,8 @@ def compared(
     found["ears: difference of species, put in"] = float(groups["short"] - groups["long"])
     factor = np.log([known[name].ear / known[name].leg for name in atlas.names])
     found["first component of growth: correlation with the known factor"] = abs(float(np.corrcoef(first, factor)[0, 1]))
-    found["p of the difference in growth"] = tests["growth"].p
+    found["p of the difference in growth"] = tests["growth"][0].p
+    found["p of the difference in growth, Hotelling's T squared"] = tests["growth"][1].p
     lame = "long1"
     found["share of the specimen without a leg that is missing"] = float(1 - atlas.valid[atlas.index(lame)].mean())
     return found

@@ -10,11 +10,17 @@ import numpy as np
 from geodesics import Mesh
 from gmds.files.table import write_table
 from gmds.morphometrics.group_tests import PointTests, ShapeTest
+from gmds.morphometrics.hotelling import HotellingTest
 
 DISCOVERY = 0.05  # rate of false discoveries, below which a point is one: a convention
 
 
-def write_tests(tests: Mapping[str, ShapeTest], points: PointTests | None, mean: Mesh, folder: Path) -> None:
+COLUMNS = ["what", "r_squared", "f", "p", "t_squared", "components", "p_t_squared", "permutations"]
+
+Tests = Mapping[str, tuple[ShapeTest, HotellingTest]]
+
+
+def write_tests(tests: Tests, points: PointTests | None, mean: Mesh, folder: Path) -> None:
     """Write test.csv, and for two groups or a covariate points.csv and points.png, each atomically.
 
     Raises `MissingExtra` (E602) without the extra `viz`, `OSError`.
@@ -22,8 +28,11 @@ def write_tests(tests: Mapping[str, ShapeTest], points: PointTests | None, mean:
     from gmds.pictures.values import write_values
 
     folder.mkdir(parents=True, exist_ok=True)
-    rows = ([name, one.r_squared, one.f, one.p, one.permutations] for name, one in tests.items())
-    write_table(folder / "test.csv", ["what", "r_squared", "f", "p", "permutations"], rows)
+    rows = (
+        [name, one.r_squared, one.f, one.p, t.t_squared, t.components, t.p, one.permutations]
+        for name, (one, t) in tests.items()
+    )
+    write_table(folder / "test.csv", COLUMNS, rows)
     if points is None:
         return
     columns = np.column_stack([points.slope, points.low, points.high, points.p, points.q]).tolist()

@@ -85,23 +85,10 @@ def shape_test(shapes: ArrayLike, columns: Floats, *, permutations: int = PERMUT
     BadArgument
         E604 when there are too few shapes, or they are all the same.
     """
-    y = np.asarray(shapes, dtype=np.float64)
-    if len(y) != len(columns):
-        raise BadShape(f"there are {len(y)} shapes and {len(columns)} rows")
-    y = y.reshape(len(y), -1)
-    if not y.size or not np.isfinite(y).all() or not np.isfinite(columns).all():
-        raise BadArgument("a test takes finite numbers, one or more for each shape")
-    k, c = columns.shape
-    if k < c + 2:
-        raise BadArgument(f"{k} shapes are too few for a test with {c + 1} parameters")
-    centred = y - y.mean(axis=0)
+    centred, q = centred_and_basis(shapes, columns)
+    k = len(centred)
     gram = centred @ centred.T
-    x = columns - columns.mean(axis=0)
-    basis = np.linalg.svd(x, full_matrices=False)
-    q = basis[0][:, basis[1] > 1e-12 * max(basis[1][0], 1e-300)]
     total = float(np.trace(gram))
-    if not total > ALIKE * float((y**2).sum()):
-        raise BadArgument("the shapes are all the same, so there is nothing to test")
     explained = float(np.trace(q.T @ gram @ q))
     random = np.random.default_rng(rng)
     beaten = 1
@@ -112,6 +99,28 @@ def shape_test(shapes: ArrayLike, columns: Floats, *, permutations: int = PERMUT
     freedom = q.shape[1]
     f = (explained / max(freedom, 1)) / max((total - explained) / (k - freedom - 1), 1e-300)
     return ShapeTest(share, f, beaten / (permutations + 1), permutations)
+
+
+def centred_and_basis(shapes: ArrayLike, columns: Floats) -> tuple[Floats, Floats]:
+    """Shapes (k, d) less their mean, and an orthonormal basis (k, c) of what the columns (k, ...) of a design span.
+
+    Raises `BadShape` (E108), `BadArgument` (E604) where there is nothing to test, as `shape_test` says.
+    """
+    y = np.asarray(shapes, dtype=np.float64)
+    if len(y) != len(columns):
+        raise BadShape(f"there are {len(y)} shapes and {len(columns)} rows")
+    y = y.reshape(len(y), -1)
+    if not y.size or not np.isfinite(y).all() or not np.isfinite(columns).all():
+        raise BadArgument("a test takes finite numbers, one or more for each shape")
+    k, c = columns.shape
+    if k < c + 2:
+        raise BadArgument(f"{k} shapes are too few for a test with {c + 1} parameters")
+    centred = y - y.mean(axis=0)
+    if not float((centred**2).sum()) > ALIKE * float((y**2).sum()):
+        raise BadArgument("the shapes are all the same, so there is nothing to test")
+    x = columns - columns.mean(axis=0)
+    u, spread, _ = np.linalg.svd(x, full_matrices=False)
+    return centred, u[:, spread > 1e-12 * max(spread[0], 1e-300)]
 
 
 def point_tests(values: Floats, covariate: Floats) -> PointTests:

@@ -36,7 +36,8 @@ def command(
 
     \b
     The output folder holds
-      test.csv    shape and growth: share of the variation that is explained, F, p by permutation
+      test.csv    shape and growth: share of the variation that is explained, F, p by permutation (Procrustes ANOVA);
+                  Hotelling's T squared of so many principal components, its p by permutation
       points.csv  a row a vertex: slope of growth (for two groups, how much longer it is in the second, as a
                   logarithm), its 95 % limits, p, and q, the rate of false discoveries
       points.png  the slope, and where q is below 0.05, on the mean shape
@@ -46,6 +47,7 @@ def command(
     from gmds.atlases.groups_output import write_tests
     from gmds.atlases.registered import Atlas
     from gmds.morphometrics.group_tests import design, point_tests, shape_test
+    from gmds.morphometrics.hotelling import hotelling_test
     from gmds.morphometrics.specimen_tables import read_column
 
     refuse_same_folder(atlas_file.parent, output, "the atlas")
@@ -57,13 +59,14 @@ def command(
     columns, growth = design(values), atlas.growth
     whole = np.isfinite(growth).all(axis=0)
     wanted = {"permutations": permutations, "rng": seed}
-    tests = {
-        "shape": shape_test(laid.aligned, columns, **wanted),
-        "growth": shape_test(growth[:, whole], columns, **wanted),
-    }
+    told = {"shape": laid.aligned, "growth": growth[:, whole]}
+    tests = {name: (shape_test(x, columns, **wanted), hotelling_test(x, columns, **wanted)) for name, x in told.items()}
     points = point_tests(growth, columns[:, 0]) if columns.shape[1] == 1 else None
     write_tests(tests, points, atlas.mean, output)
-    found = {name: {"r_squared": one.r_squared, "f": one.f, "p": one.p} for name, one in tests.items()}
+    found = {
+        name: {"r_squared": one.r_squared, "f": one.f, "p": one.p, "t_squared": t.t_squared, "p_t_squared": t.p}
+        for name, (one, t) in tests.items()
+    }
     known = 0 if points is None else int((points.q < 0.05).sum())
     groups = None if np.asarray(values).dtype.kind == "f" else sorted(set(np.asarray(values).tolist()))
     emit(

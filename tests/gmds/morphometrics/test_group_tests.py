@@ -12,6 +12,7 @@ from geodesics.errors import BadArgument, BadShape
 from gmds.errors import BadGroups
 from gmds.landmarks.files import read_specimens
 from gmds.morphometrics.group_tests import design, discoveries, point_tests, shape_test
+from gmds.morphometrics.hotelling import hotelling_test
 from gmds.morphometrics.specimen_tables import read_column, write_points
 
 RNG = np.random.default_rng(5)
@@ -32,6 +33,23 @@ def test_of_one_number_it_is_the_analysis_of_variance() -> None:
     assert np.isclose(found.f, stats.f_oneway(y[:6], y[6:]).statistic)
     x = RNG.normal(size=12)
     assert np.isclose(shape_test(y[:, None], design(x), permutations=1).r_squared, stats.linregress(x, y).rvalue ** 2)
+
+
+def test_hotelling_is_the_textbook_formula_and_sees_what_hardly_varies() -> None:
+    rng = np.random.default_rng(11)
+    scores = rng.normal(size=(12, 2))
+    found = hotelling_test(scores, design(GROUPS), permutations=9)
+    a, b = scores[:6], scores[6:]
+    pooled = (5 * np.cov(a.T) + 5 * np.cov(b.T)) / 10
+    delta = a.mean(axis=0) - b.mean(axis=0)
+    assert found.components == 2 and np.isclose(found.t_squared, 3 * delta @ np.linalg.solve(pooled, delta))
+    y = rng.normal(size=(12, 1))
+    assert np.isclose(hotelling_test(y, design(GROUPS), permutations=1).t_squared, shape_test(y, design(GROUPS)).f)
+    shapes = rng.normal(size=(12, 2)) * [1, 0.25]  # groups differ where they vary little
+    shapes[6:, 1] += 0.6
+    assert hotelling_test(shapes, design(GROUPS)).p < 0.02 and shape_test(shapes, design(GROUPS)).p > 0.2
+    chance = [hotelling_test(rng.normal(size=(12, 4)), design(GROUPS), permutations=99, rng=i).p for i in range(60)]
+    assert stats.kstest(chance, "uniform").pvalue > 0.01
 
 
 def test_where_nothing_differs_probabilities_are_even() -> None:
