@@ -68,7 +68,8 @@ class CarriedLandmarks:
         at[~self.valid] = -1 if vertices else np.nan
         lost = self.given.defined & ~self.valid
         status = np.where(lost, "missing", np.array(self.given.status)).tolist()
-        return Landmarks(self.names, at, self.given.named, tuple(status))
+        given = self.given
+        return Landmarks(self.names, at, given.named, tuple(status), given.selected, given.lists)
 
 
 def carry_landmarks(answer: PointMap, landmarks: Landmarks) -> CarriedLandmarks:

@@ -5,7 +5,8 @@
 | `.csv` | `name,x,y,z`, `x,y,z`, `name,vertex` or `vertex` (from 0) a line; a header may order them | yes | by header |
 | | or, below this header, `name,face,w0,w1,w2`: a face (from 0) and barycentric weights | | |
 | | or, of several specimens, a column `specimen`, or a row a specimen as MorphoJ has it (read) | no | - |
-| `.mrk.json`, `.json` | 3D Slicer markups, schema 1.x: the control points of every list | yes | LPS or RAS |
+| `.mrk.json`, `.json` | 3D Slicer markups, schema 1.x: the control points of every list; | yes | LPS or RAS |
+| | curves stay curves, and excluded points (not selected) excluded | | |
 | `.fcsv` | 3D Slicer fiducials, 4.x and 5.x | yes | LPS or RAS |
 | `.tps` | specimens of `LM3=` landmarks; `SCALE` multiplies, points of curves follow; one is written | no | - |
 | `.pts` | `x y z` or `name x y z` a line, alone or below the header of IDAV Landmark or ibug (`version: 1`) | yes | - |

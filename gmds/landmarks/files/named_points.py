@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import count
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +25,14 @@ class BadLandmarkFile(FormatError):
     code = "E306"
 
 
+class PointList(NamedTuple):
+    """A list of 3D Slicer: its kind ("Fiducial", "Curve", "ClosedCurve", ...), its name, how many landmarks it has."""
+
+    kind: str
+    name: str
+    size: int
+
+
 @dataclass(frozen=True, eq=False)
 class Landmarks:
     """Named points of one surface, k of them, in the order of their list.
@@ -41,6 +49,10 @@ class Landmarks:
     status : tuple of str, optional
         For each "defined", "undefined" (not placed yet) or "missing" (known not to be there), as in 3D Slicer. Without
         it those without a place are missing.
+    selected : tuple of bool, optional
+        False for those that are excluded, as in 3D Slicer; they are kept and carried like all others.
+    lists : tuple of PointList, optional
+        Which of them, one list after the other, are single points and which the points of a curve.
 
     Raises
     ------
@@ -57,6 +69,8 @@ class Landmarks:
     at: NDArray[Any]
     named: bool = True
     status: tuple[Status, ...] = ()
+    selected: tuple[bool, ...] = ()
+    lists: tuple[PointList, ...] = ()
 
     def __post_init__(self) -> None:
         at = np.array(self.at, dtype=np.int64 if np.ndim(self.at) == 1 else np.float64)
@@ -67,10 +81,14 @@ class Landmarks:
         there = np.array([word == "defined" for word in status], dtype=bool)
         if len(status) != len(at) or (there & nowhere).any():
             raise BadLandmarkFile(f"{len(status)} words of status for {len(at)} landmarks, or one without place")
+        selected = self.selected or (True,) * len(at)
+        if len(selected) != len(at) or (self.lists and sum(one.size for one in self.lists) != len(at)):
+            raise BadLandmarkFile(f"what is said of {len(at)} landmarks is said of more or fewer of them")
         at[~there] = -1 if at.ndim == 1 else np.nan
         at.setflags(write=False)
         object.__setattr__(self, "at", at)
         object.__setattr__(self, "status", status)
+        object.__setattr__(self, "selected", selected)
 
     @classmethod
     def unnamed(cls, at: Any) -> Landmarks:
@@ -83,7 +101,16 @@ class Landmarks:
     def __getitem__(self, rows: Integers | Bools) -> Landmarks:
         chosen = np.arange(len(self))[rows]
         names, status = (tuple(words[i] for i in chosen) for words in (self.names, self.status))
-        return Landmarks(names, self.at[chosen], self.named, status)
+        selected = tuple(self.selected[i] for i in chosen)
+        return Landmarks(names, self.at[chosen], self.named, status, selected, self._lists_of(chosen))
+
+    def _lists_of(self, chosen: Integers) -> tuple[PointList, ...]:
+        """The lists of some of the landmarks; none where they are in another order."""
+        if not self.lists or (np.diff(chosen) <= 0).any():
+            return ()
+        ends = np.cumsum([one.size for one in self.lists])
+        counts = np.bincount(np.searchsorted(ends, chosen, side="right"), minlength=len(ends)).tolist()
+        return tuple(one._replace(size=n) for one, n in zip(self.lists, counts, strict=True) if n)
 
     @property
     def defined(self) -> Bools:

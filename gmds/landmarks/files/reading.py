@@ -11,7 +11,7 @@ import numpy as np
 
 from gmds.files.table import NUMBER, plain_number
 from gmds.files.text import read_text
-from gmds.landmarks.files.named_points import BadLandmarkFile, Landmarks, Status
+from gmds.landmarks.files.named_points import BadLandmarkFile, Landmarks, PointList, Status
 
 LARGEST = 50_000_000  # bytes of a landmark file: a bound on memory, half a million landmarks
 NOWHERE = ("", "na", "n/a", "nan", "null", "none", "-")  # words of R, spreadsheets and Python for what is missing
@@ -73,9 +73,20 @@ class Rows:
         self.at: list[list[float] | int | None] = []
         self.status: list[Status] = []
         self.named = True
+        self.selected: list[bool] = []
+        self.lists: list[PointList] = []
 
-    def add(self, where: str, name: str | None, at: list[float] | int | None, status: Status = "missing") -> None:
+    def add(
+        self,
+        where: str,
+        name: str | None,
+        at: list[float] | int | None,
+        status: Status = "missing",
+        *,
+        selected: bool = True,
+    ) -> None:
         """One landmark: its line or place, its name if it has one, and where it is; None: nowhere, of this status."""
+        self.selected.append(selected)
         if not (name or "").strip():
             name, self.named = None, False
         self.names.append(" ".join(name.split()) if name is not None else str(len(self.names) + 1))
@@ -91,4 +102,5 @@ class Rows:
         known = next(at for at in self.at if at is not None)
         nowhere: list[float] | int = -1 if isinstance(known, int) else [math.nan] * len(known)
         at = np.array([nowhere if one is None else one for one in self.at])
-        return Landmarks(tuple(self.names), at, self.named, tuple(self.status))
+        said = tuple(self.status), tuple(self.selected), tuple(self.lists)
+        return Landmarks(tuple(self.names), at, self.named, *said)

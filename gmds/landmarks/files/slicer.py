@@ -13,7 +13,15 @@ from typing import Any, NoReturn
 import numpy as np
 
 from gmds.files.table import table_text, unguarded
-from gmds.landmarks.files.named_points import SPACES, BadLandmarkFile, Landmarks, Space, Status, turned
+from gmds.landmarks.files.named_points import (
+    SPACES,
+    BadLandmarkFile,
+    Landmarks,
+    PointList,
+    Space,
+    Status,
+    turned,
+)
 from gmds.landmarks.files.reading import Rows, position
 
 Columns = Mapping[str, Sequence[object]]
@@ -48,22 +56,27 @@ def parse_mrk(path: Path, text: str, space: Space) -> Landmarks:
 
 
 def mrk_text(landmarks: Landmarks, space: Space, columns: Columns) -> str:
-    """A list of fiducials in the frame `space`."""
-    points = [
+    """The lists that there are, curves as curves, or one of fiducials, in the frame `space`."""
+    points: list[dict[str, Any]] = [
         {
             "id": str(i + 1),
             "label": name,
             "description": _described(columns, i),
             "position": np.nan_to_num(landmarks.positions[i]).tolist(),  # the schema wants numbers of all
-            "selected": True,
+            "selected": landmarks.selected[i],
             "locked": False,
             "visibility": True,
             "positionStatus": landmarks.status[i],
         }
         for i, name in enumerate(landmarks.names)
     ]
-    markup = {"type": "Fiducial", "coordinateSystem": space, "controlPoints": points}
-    return json.dumps({"@schema": SCHEMA, "markups": [markup]}, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+    markups, start = [], 0
+    for one in landmarks.lists or (PointList("Fiducial", "", len(points)),):
+        named = {"name": one.name} if one.name else {}
+        some = points[start : start + one.size]
+        markups.append({"type": one.kind, **named, "coordinateSystem": space, "controlPoints": some})
+        start += one.size
+    return json.dumps({"@schema": SCHEMA, "markups": markups}, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def parse_fcsv(path: Path, text: str, space: Space) -> Landmarks:
@@ -115,6 +128,10 @@ def _read_markup(rows: Rows, where: str, markup: Any, space: Space) -> None:
     given = markup.get("coordinateSystem", "LPS")
     if given not in SPACES:
         refuse(f"coordinateSystem is {given!r:.40}, not LPS or RAS")
+    kind, name = markup.get("type", "Fiducial"), markup.get("name", "")
+    if not isinstance(kind, str) or not isinstance(name, str):
+        refuse("type and name must be text")
+    rows.lists.append(PointList(kind, name, len(markup.get("controlPoints", []))))
     for i, point in enumerate(markup.get("controlPoints", [])):
         place = f"{where}.controlPoints[{i}]"
         if not isinstance(point, dict):
@@ -123,14 +140,15 @@ def _read_markup(rows: Rows, where: str, markup: Any, space: Space) -> None:
         if not isinstance(label, str):
             refuse(f"controlPoints[{i}]: the label is no text")
         status = point.get("positionStatus", "defined")
+        selected = point.get("selected", True) is not False
         if isinstance(status, str) and status in NOWHERE:
-            rows.add(place, label, None, NOWHERE[status])
+            rows.add(place, label, None, NOWHERE[status], selected=selected)
             continue
         at: Any = point.get("position")
         if not _is_position(at):
             refuse(f"controlPoints[{i}] ({label!r:.40}): the position must be three finite numbers")
         sign = 1.0 if given == space else -1.0  # as in `turned`
-        rows.add(place, label, [sign * at[0], sign * at[1], float(at[2])])
+        rows.add(place, label, [sign * at[0], sign * at[1], float(at[2])], selected=selected)
 
 
 def _is_position(at: Any) -> bool:

@@ -159,3 +159,31 @@ def test_landmarks_of_files_are_taken_as_they_are_and_named_in_errors() -> None:
         )
     with pytest.raises(LandmarkError, match="E300: landmarks without a place: unset, gone"):
         check_landmarks((MARKS, np.arange(5)), SHAPE, TARGET)
+
+
+def test_curves_stay_curves_and_what_is_excluded_stays_so(tmp_path: Path) -> None:
+    def point(i: int, **others: object) -> dict[str, object]:
+        return {"label": f"P{i}", "position": (-SHAPE.vertices[i] * [1, 1, -1]).tolist(), **others}
+
+    fiducials = [point(0), point(1, selected=False), point(2, positionStatus="missing")]
+    curve = [point(3), point(LOST), point(5, positionStatus="undefined"), point(6)]
+    lists = [
+        {"type": "Fiducial", "coordinateSystem": "RAS", "controlPoints": fiducials},
+        {"type": "ROI", "controlPoints": [point(7)]},
+        {"type": "ClosedCurve", "name": "rim", "coordinateSystem": "RAS", "controlPoints": curve},
+    ]
+    schema = "https://raw.githubusercontent.com/slicer/slicer/master/markups-schema-v1.0.3.json#"
+    (tmp_path / "a.mrk.json").write_text(json.dumps({"@schema": schema, "markups": lists}))
+    given = read_landmarks(tmp_path / "a.mrk.json")
+    write_landmarks(tmp_path / "b.mrk.json", carry_landmarks(answer(), given).landmarks())
+    first, rim = json.loads((tmp_path / "b.mrk.json").read_text())["markups"]
+    assert (first["type"], rim["type"], rim["name"]) == ("Fiducial", "ClosedCurve", "rim")
+    assert [one["selected"] for one in first["controlPoints"]] == [True, False, True]
+    words = [one["positionStatus"] for one in (*first["controlPoints"], *rim["controlPoints"])]
+    assert words == ["defined", "defined", "missing", "defined", "missing", "undefined", "defined"]
+    assert np.allclose(rim["controlPoints"][3]["position"], TARGET.vertices[6])
+    some = read_landmarks(tmp_path / "b.mrk.json")[np.array([0, 3, 6])]
+    assert [(one.kind, one.size) for one in some.lists] == [("Fiducial", 1), ("ClosedCurve", 2)]
+    assert given[np.array([6, 0])].lists == ()
+    with pytest.raises(BadLandmarkFile, match="more or fewer"):
+        Landmarks(NAMES, AT, status=STATUS, selected=(True,))  # type: ignore[arg-type]
