@@ -6,10 +6,11 @@ Each source triangle and its image have a deformation gradient with principal st
 
 are the logarithm of the growth of the area, and the mean over all tangent directions of the logarithm of the growth of
 length (the integral of :math:`\log \sqrt{s_1^2 \cos^2 + s_2^2 \sin^2}`); where growth has no direction the first is
-twice the second. A map from triangles to triangles shakes by about the length of an edge, so both are averaged by one
+twice the second. A map from triangles to triangles shakes by about the length of an edge, so both are averaged by an
 implicit step of the heat equation over the source: areas of images with their sign, whose sum over a region only
 depends on where the map sends its rim, and the trace-free part of the logarithmic strain, which shaking leaves zero
-on average.
+on average. What the map's own errors leave in the growth of the area is cleared away by `steps_and_slopes`, which keeps
+the steep rim of a part that grew; where triangles are sheared much the map is likely to be off, and trusted less.
 """
 
 from __future__ import annotations
@@ -27,12 +28,17 @@ from geodesics.mesh import Mesh
 from geodesics.topology.orientation import orient_faces
 from gmds.maps.images import torn_faces
 from gmds.maps.point_map import PointMap
+from gmds.maps.steps_and_slopes import cleared
+from gmds.maps.strain import frames, log_strain, principal, square
 
-# Heat time, in units of the area of the source: the least error of the growth field on the development pairs of
-# `benchmarks.study.growth` (`benchmarks/results/growth.md`).
+# Heat time, in units of the area of the source, and what the others are in units of it: heat time of the area, and of
+# the shear that tells how far to trust it; strength of the clearing; and the shear (half log s1/s2) at which trust is
+# a half. Chosen on the development pairs of `benchmarks.study.growth` (`benchmarks/results/growth_development.csv`).
 SMOOTHING = 1e-3
-MOST_STRAIN = 2.0  # of half log s1/s2 of one triangle, a bound: more is a triangle that the map all but collapses
-THINNEST = 1e-6  # breadth over length of a triangle, below which nothing is known across it: a bound
+OF_AREA = 0.1
+OF_SHEAR = 0.3
+CLEARING = 0.5
+DOUBTED_SHEAR = 0.2
 LEAST_SHARE = 0.02  # of known area around a vertex, below which its growth is unknown: a bound of extrapolation
 LEAST_GROWTH = 1e-3  # of area, where images cancel: a bound
 
@@ -164,48 +170,41 @@ def _growth(source: Mesh, image: Floats, normals: Floats, used: Bools, smoothing
     if not smoothing > 0:
         raise BadArgument(f"smoothing must be a positive share of the area, not {smoothing!r}")
     faces = orient_faces(source).faces
-    run, rise = _frames(source.vertices, faces)[1], image[faces[:, 1:]] - image[faces[:, :1]]
+    run, rise = frames(source.vertices, faces)[1], image[faces[:, 1:]] - image[faces[:, :1]]
     area = 0.5 * np.linalg.norm(np.cross(run[:, 0], run[:, 1]), axis=1)
     used = used & (area > 1e-12 * area.max())
     image_normal = 0.5 * np.cross(rise[:, 0], rise[:, 1])
     signed = np.copysign(np.linalg.norm(image_normal, axis=1), (image_normal * normals[faces].sum(axis=1)).sum(axis=1))
     signed *= np.sign(signed[used].sum()) or 1.0
-    strain = np.where(used[:, None, None], _strain(source.vertices, faces, rise), 0.0)
-    amounts = np.column_stack([signed, np.abs(signed), np.ones(len(area))]) * used[:, None]
-    amounts[:, 2] *= area
-    smooth = _smoothed(source, faces, np.column_stack([amounts, area[:, None] * strain.reshape(-1, 9)]), smoothing)
-    known = smooth[:, 2] > LEAST_SHARE
-    weight = np.where(known, smooth[:, 2], 1.0)
-    kept = np.where(smooth[:, 0] > LEAST_GROWTH * smooth[:, 1], smooth[:, 0], LEAST_GROWTH * smooth[:, 1])
-    log_area = np.where(known & (kept > 0), np.log(np.maximum(kept, 1e-300) / weight), np.nan)
-    shear, direction = _principal(smooth[:, 3:].reshape(-1, 3, 3) / weight[:, None, None], vertex_normals(source))
+    strain = np.where(used[:, None, None], log_strain(source.vertices, faces, rise), 0.0)
+    area_used = area * used
+    amounts = np.column_stack([signed * used, np.abs(signed) * used, area_used])
+    smooth = _smoothed(source, faces, amounts, OF_AREA * smoothing)
+    log_area, known = _log_growth(smooth)
+    sheared = _smoothed(source, faces, np.column_stack([area_used, area * square(strain)]), OF_SHEAR * smoothing)
+    doubt = sheared[:, 1] / np.maximum(sheared[:, 0], LEAST_SHARE) / DOUBTED_SHEAR**2
+    trust = np.where(np.isfinite(log_area), known / (1 + doubt), 0.0)
+    log_area = np.where(
+        trust > 0, 2 * cleared(embedded(source), np.nan_to_num(log_area) / 2, trust, CLEARING * smoothing), np.nan
+    )
+    strained = _smoothed(source, faces, np.column_stack([area_used, area[:, None] * strain.reshape(-1, 9)]), smoothing)
+    weight = np.maximum(strained[:, :1], LEAST_SHARE)[:, :, None]
+    shear, direction = principal(strained[:, 1:].reshape(-1, 3, 3) / weight, vertex_normals(source))
     stretches = np.exp(log_area[:, None] / 2 + shear[:, None] * [1, -1])
     direction[np.isnan(log_area)] = np.nan
     return Growth(np.log(stretches.mean(axis=1)), log_area, stretches, direction, smoothing)
 
 
-def _frames(vertices: Floats, faces: Integers) -> tuple[Floats, Floats]:
-    """Two orthonormal tangents (m, 2, 3) of each face, and two of its edges (m, 2, 3)."""
-    run = vertices[faces[:, 1:]] - vertices[faces[:, :1]]
-    tiny = np.finfo(float).tiny
-    one = run[:, 0] / np.maximum(np.linalg.norm(run[:, 0], axis=1, keepdims=True), tiny)
-    other = run[:, 1] - (run[:, 1] * one).sum(axis=1, keepdims=True) * one
-    other /= np.maximum(np.linalg.norm(other, axis=1, keepdims=True), tiny)
-    return np.stack([one, other], axis=1), run
+def _log_growth(smooth: Floats) -> tuple[Floats, Floats]:
+    """The logarithm (n,) of the growth of area, NaN where unknown, and how much of the area around (n,) is known.
 
-
-def _strain(vertices: Floats, faces: Integers, rise: Floats) -> Floats:
-    """The trace-free logarithmic strain (m, 3, 3) of each face, whose edges become `rise` (m, 2, 3)."""
-    frame, run = _frames(vertices, faces)
-    flat = np.einsum("mei,mki->mek", run, frame)  # edges in the frame of their face
-    gradient = np.einsum("mke,mei->mki", np.linalg.pinv(flat, rcond=THINNEST), rise)
-    metric = np.einsum("mki,mli->mkl", gradient, gradient)
-    values, vectors = np.linalg.eigh(metric)
-    logs = np.log(np.maximum(values, np.finfo(float).tiny))
-    shear = np.clip(0.25 * (logs[:, 1] - logs[:, 0]), 0.0, MOST_STRAIN)
-    axes = np.einsum("mkj,mki->mji", vectors, frame)
-    outer = axes[:, 1, :, None] * axes[:, 1, None, :] - axes[:, 0, :, None] * axes[:, 0, None, :]
-    return np.asarray(shear[:, None, None] * outer, dtype=np.float64)
+    `smooth` (n, 3): densities of the area of images with its sign, without, and of the area before.
+    """
+    known = smooth[:, 2] > LEAST_SHARE
+    weight = np.where(known, smooth[:, 2], 1.0)
+    kept = np.where(smooth[:, 0] > LEAST_GROWTH * smooth[:, 1], smooth[:, 0], LEAST_GROWTH * smooth[:, 1])
+    log_area = np.where(known & (kept > 0), np.log(np.maximum(kept, 1e-300) / weight), np.nan)
+    return log_area, np.clip(smooth[:, 2], 0.0, 1.0)
 
 
 def _smoothed(source: Mesh, faces: Integers, amounts: Floats, smoothing: float) -> Floats:
@@ -220,11 +219,3 @@ def _smoothed(source: Mesh, faces: Integers, amounts: Floats, smoothing: float) 
     density = np.zeros_like(per_vertex)
     density[there] = factorised((sp.diags(mass[there]) + diffusion).tocsc()).solve(per_vertex[there])
     return density
-
-
-def _principal(strain: Floats, normals: Floats) -> tuple[Floats, Floats]:
-    """Half of log s1/s2 (n,), and the direction of s1 (n, 3), of trace-free strains (n, 3, 3) of tangent planes."""
-    across = np.eye(3) - normals[:, :, None] * normals[:, None, :]
-    flat = across @ strain @ across
-    values, vectors = np.linalg.eigh((flat + np.swapaxes(flat, 1, 2)) / 2)
-    return np.asarray((values[:, 2] - values[:, 0]) / 2, dtype=np.float64), vectors[:, :, 2].copy()
