@@ -12,8 +12,13 @@ from geodesics.errors import BadArgument
 from gmds.atlases.registered import Atlas
 from gmds.atlases.rounds import Progress, Rounds
 from gmds.batch.collection import Collection, Given, Shape
+from gmds.batch.workers import local_client
 from gmds.errors import NoAtlas
 from gmds.suggestions import did_you_mean
+
+# A registration takes about a sixth of the time of a match. On FAUST pairs through an atlas of one template are off by
+# 6 % less with 4 than with none (`benchmarks/results/atlas.md`).
+NEIGHBOURS = 4
 
 
 def atlas(
@@ -23,6 +28,7 @@ def atlas(
     template: str | None = None,
     templates: int = 1,
     rounds: int = 1,
+    neighbours: int = NEIGHBOURS,
     mirror: Sequence[str] | str = (),
     progress: Progress | None = None,
     **matching: Any,
@@ -31,8 +37,9 @@ def atlas(
 
     The specimen to which the others are nearest (the medoid by `least_distortion`) is the template, and is matched to
     each of them by `match_collection`. With several templates each is matched to all; what they say, composed through
-    the first, is put to the vote, and how far they disagree is the `spread`. In later rounds the mean shape is the
-    template.
+    the first, is put to the vote, by confidence. Then each specimen is registered directly from some others, starting
+    from there, and what these say is put to the vote as well; how far they disagree is the `spread`. In later rounds
+    the mean shape is the template.
 
     Parameters
     ----------
@@ -46,6 +53,9 @@ def atlas(
         How many.
     rounds : int
         From the second on, the mean shape is matched to all specimens; rounds end when it moves no more.
+    neighbours : int
+        From how many others each specimen is registered; fewer than 2 leave it at the maps of the templates, and so
+        do ``mirror="auto"``, a `distance`, and a collection of fewer than 4.
     mirror : sequence of str, str or "auto"
         Specimens of the other side, which are mirrored; "auto" finds out which.
     progress : callable, optional
@@ -81,8 +91,8 @@ def atlas(
     ...     print(made.names, made.positions.shape)
     ('standing', 'walking') (2, 200, 3)
     """
-    if templates < 1 or rounds < 1:
-        raise BadArgument("there must be one template and one round at least")
+    if templates < 1 or rounds < 1 or neighbours < 0:
+        raise BadArgument("there must be one template and one round at least, and no fewer than 0 neighbours")
     with contextlib.ExitStack() as stack:
         folder = Path(output or stack.enter_context(tempfile.TemporaryDirectory(prefix="gmds-"))).absolute()
         folder.mkdir(parents=True, exist_ok=True)
@@ -93,7 +103,11 @@ def atlas(
         for name in [one for one in (template, *names) if one not in (None, "auto")]:
             if name not in known:
                 raise BadArgument(f"there is no specimen {name!r}{did_you_mean(str(name), list(known))}")
-        work = Rounds(known, folder, frozenset(names), matching, progress or (lambda stage, share: None), rounds)
+        client = matching.pop("client", None)
+        if not hasattr(client, "submit"):
+            client = stack.enter_context(client or local_client())
+        report = progress or (lambda stage, share: None)
+        work = Rounds(known, folder, frozenset(names), matching, report, rounds, neighbours, client)
         return work.done(template, templates)
 
 

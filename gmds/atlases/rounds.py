@@ -3,23 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from geodesics import Mesh
+from geodesics.arrays import Integers
 from geodesics.caching import cached_property
-from gmds.atlases.fusion import Fused, fused, gap_of
+from gmds.atlases.fusion import Fused, Said, fused, gap_of
+from gmds.atlases.neighbours import Job, neighbours_of, with_neighbours
 from gmds.atlases.registered import MIRROR, Atlas
 from gmds.atlases.sides import is_mirror, moved
 from gmds.atlases.templates import medoids, profiles
 from gmds.batch.collection import Shape
-from gmds.batch.records import WITHOUT_MAP, Failure, PairRecord
+from gmds.batch.records import WITHOUT_MAP, Batch, Failure, PairRecord
 from gmds.batch.run import match_collection
+from gmds.batch.store import Store
 from gmds.correspondence import Correspondence
 from gmds.errors import NoAtlas
+from gmds.matching.settling import CommonPoints
 from gmds.morphometrics.procrustes import superimposed
 
 Progress = Callable[[str, float], None]
@@ -38,6 +42,8 @@ class Rounds:
     matching: dict[str, Any]
     report: Progress
     rounds: int
+    neighbours: int
+    client: Any
     failures: dict[str, Failure] = field(default_factory=dict)
 
     @cached_property
@@ -82,7 +88,9 @@ class Rounds:
         origins = {name: self._origin(shape) for name, shape in self.shapes.items()}
         share = (1 - PROFILES) / self.rounds
         told = lambda s, x: self.report(s, PROFILES + share * (number - 1 + x))  # noqa: E731
-        batch = match_collection(origins, self.folder / maps, pairs=pairs, progress=told, **self.matching)
+        batch = match_collection(
+            origins, self.folder / maps, pairs=pairs, progress=told, client=self.client, **self.matching
+        )
         done = {(pair.source, pair.target): pair for pair in batch.pairs if pair.status not in WITHOUT_MAP}
         for pair in batch.failed:
             if pair.source == templates[0]:
@@ -92,13 +100,35 @@ class Rounds:
         if len(kept) < (2 if first == self.mean else 1):
             raise NoAtlas(f"no specimen can be matched with the template {first}; {_told(self.failures)}")
         meshes = {name: self._mesh(name) for name in (*templates,)}
-        rows = []
+        rows = {}
         for name in names:
-            mesh = meshes.get(name) or self._mesh(name)
-            said = self._said(name, mesh, meshes, list(done), self.folder / maps)
-            rows.append((said, gap_of(mesh, said.places, meshes[first].faces, said.valid)))
+            rows[name] = self._said(name, meshes.get(name) or self._mesh(name), meshes, list(done), self.folder / maps)
+        rows = self._settled(rows, meshes[first].faces, first, batch, told)
+        gap = [gap_of(self._mesh(n), row.places, meshes[first].faces, row.valid) for n, row in rows.items()]
         status = tuple("TEMPLATE" if name == first else done[first, name].status for name in names)
-        return self._atlas(names, meshes[first], [row for row, _ in rows], [gap for _, gap in rows], status)
+        return self._atlas(names, meshes[first], list(rows.values()), gap, status)
+
+    def _settled(
+        self, rows: dict[str, Fused], faces: Integers, first: str, batch: Batch, told: Progress
+    ) -> dict[str, Fused]:
+        """The rows, each specimen registered from some others as well; as they are where sides are to be found out."""
+        pairs = neighbours_of(list(rows), self.neighbours, first)
+        if not pairs or "auto" in self.mirror or self.matching.get("distance") is not None:
+            return rows
+        folder = batch.output / "settled"
+        folder.mkdir(exist_ok=True)
+        store = Store(batch.output / "shapes")
+
+        def job(source: str, target: str) -> Job:
+            common = CommonPoints(rows[source].places, rows[target].places, faces)
+            there = rows[source].valid & rows[target].valid
+            common = replace(common, faces=faces[there[faces].all(axis=1)])
+            path = folder / f"{source}__{target}.npz"
+            return Job(batch.shapes[source], batch.shapes[target], store, common, path)
+
+        if first in rows:  # of which nobody says anything else
+            rows[first] = rows[first]._replace(spread=np.zeros(len(rows[first].places)))
+        return with_neighbours(rows, [job(*pair) for pair in pairs], self._mesh, self.client, told)
 
     def _said(self, name: str, mesh: Mesh, meshes: dict[str, Mesh], done: list[tuple[str, str]], folder: Path) -> Fused:
         """Where the first template is on a specimen, by all templates."""
@@ -110,12 +140,12 @@ class Rounds:
 
         if name == first:
             there = np.isin(np.arange(mesh.n_vertices), mesh.faces)
-            return Fused(
-                mesh.vertices, there, np.zeros(mesh.n_vertices) if others else np.full(mesh.n_vertices, np.nan)
-            )
+            none = np.full(mesh.n_vertices, 0.0 if others else np.nan)
+            return Fused(mesh.vertices, there, none, np.ones(mesh.n_vertices))
         said = [load(first, name)]
         through = [one for one in others if one != name and (first, one) in done and (one, name) in done]
-        return fused([*said, *(load(first, one).compose(load(one, name)) for one in through)])
+        said += [load(first, one).compose(load(one, name)) for one in through]
+        return fused([Said.by(one) for one in said], mesh)
 
     def _atlas(self, names: list[str], template: Mesh, rows: list[Fused], gap: list[float], status: Any) -> Atlas:
         places, valid = np.stack([row.places for row in rows]), np.stack([row.valid for row in rows])

@@ -7,6 +7,7 @@ import csv
 import json
 import shutil
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ from click.testing import CliRunner, Result
 import gmds
 import gmds.batch
 from geodesics import Mesh, SurfacePoints, read_mesh, write_mesh
-from gmds.atlases.fusion import fused
+from gmds.atlases.fusion import Said, fused
 from gmds.atlases.registered import Atlas
 from gmds.cli import main
 from gmds.correspondence import Correspondence
@@ -113,6 +114,21 @@ def test_a_run_that_goes_on_writes_the_same_bytes(
         assert (half / name).read_bytes() == (out / name).read_bytes(), name
 
 
+def test_a_second_round_uses_the_workers_there_are_and_neighbours_and_goes_on_where_it_was(
+    made: tuple[Path, Result], client: Any, folder: Path, tmp_path: Path
+) -> None:
+    shutil.copytree(made[0], tmp_path / "out")
+    entered = contextlib.contextmanager(lambda: (yield client))  # as `local_client`: to be entered once
+    again = gmds.atlas(folder, tmp_path / "out", mirror=["c"], rounds=2, client=entered())
+    assert len(again.changes) == 1 and again.changes[0] < 0.05 and again.names == tuple(SCALES)
+    assert np.isfinite(again.spread).all() and 0 < again.spread.mean() < 0.05
+    settled = sorted((tmp_path / "out" / "maps-2" / "settled").iterdir())
+    assert len(settled) == 6  # each of three from two others
+    settled[0].write_bytes(settled[0].read_bytes()[:1000])  # as one that was killed leaves it on some drives
+    on = gmds.atlas(folder, tmp_path / "out", mirror=["c"], rounds=2, client=client)
+    assert np.array_equal(on.positions, again.positions) and np.array_equal(on.spread, again.spread)
+
+
 def test_around_any_circle_points_come_home(made: tuple[Path, Result]) -> None:
     atlas = Atlas.load(made[0] / "atlas.npz")
     there = atlas.map("a", "b").vertex_map()
@@ -160,10 +176,14 @@ def test_the_majority_is_heeded_and_doubt_is_told() -> None:
     here = np.arange(N)
     right = Correspondence.from_points(mesh, SurfacePoints.at_vertices(mesh, here))
     wrong = Correspondence.from_points(mesh, SurfacePoints.at_vertices(mesh, np.roll(here, 40)))
-    voted = fused([right, wrong, right])
+    said = [Said.by(one) for one in (right, wrong, right)]
+    voted = fused(said, mesh)
     assert np.abs(voted.places - mesh.vertices).max() < 0.01 * np.sqrt(mesh.area)
-    assert voted.spread.mean() > 0.05 and fused([right, right, right]).spread.max() < 1e-9
-    assert np.isnan(fused([right]).spread).all()
+    assert voted.spread.mean() > 0.05 and fused([said[0]] * 3, mesh).spread.max() < 1e-9
+    assert np.isnan(fused(said[:1], mesh).spread).all()
+    sure, unsure = (replace(one, confidence=np.full(N, sure)) for one, sure in ((right, 0.9), (wrong, 0.3)))
+    weighed = fused([Said.by(sure), Said.by(unsure), Said.by(unsure)], mesh)
+    assert np.abs(weighed.places - mesh.vertices).max() < 0.01 * np.sqrt(mesh.area)
 
 
 def test_groups_asymmetry_and_points_on_the_command_line(
