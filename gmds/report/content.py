@@ -15,6 +15,7 @@ from gmds.maps.growth import growth_of
 from gmds.maps.images import preimage
 from gmds.maps.overlap import reach
 from gmds.maps.point_map import Candidate, MatchStatus, PointMap
+from gmds.maps.words import WORDS
 from gmds.pictures.colours import (
     MISSING,
     diverging_colours,
@@ -53,6 +54,7 @@ def content(
         "surfaces": [_surface(one, name) for one, name in zip(drawn, names, strict=True)],
         "modes": modes(known, errors),
         "maps": maps,
+        "words": WORDS,
         "landmarks": [{"name": name, "at": places(at, drawn)} for name, *at in given],
         "colours": levels(position_colours(answer.target.vertices)[drawn[1].origin]),
         "ramp": levels(value_colours(np.linspace(0, 1, 128), 0, 1)),

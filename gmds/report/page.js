@@ -5,6 +5,11 @@ const at = (id) => document.getElementById(id);
 const figure = (x) => (Number.isFinite(x) ? x.toPrecision(3) : "unknown");
 const figureShort = (x) => String(Number(x.toPrecision(3)));
 const made = (tag, ...children) => { const whole = document.createElement(tag); whole.append(...children); return whole; };
+const about = (meaning) => {
+  const mark = Object.assign(made("abbr"), { className: "about", title: meaning, tabIndex: 0 });
+  mark.setAttribute("aria-label", meaning);
+  return mark;
+};
 const MOST_PINS = 20;
 const SQUARES = 14; // from one end of the target to the other
 
@@ -122,7 +127,7 @@ class Page {
     at("largest").style.visibility = mode.high ? "" : "hidden";
     if (!mode.high) return;
     const top = this.top(mode);
-    at("legend-label").textContent = mode.unit;
+    at("legend-label").replaceChildren(mode.unit, about(mode.help));
     at("low").textContent = mode.signed ? figureShort(-top) : "0";
     at("high").textContent = `${figureShort(top)}${map.largest[mode.key] > top * 1.0001 ? " and more" : ""}`;
     at("ramp").classList.toggle("reversed", Boolean(mode.reversed));
@@ -136,7 +141,8 @@ class Page {
     at("badge").textContent = told.verdict;
     at("status").textContent = told.status;
     at("next").textContent = told.next;
-    at("cards").replaceChildren(...told.cards.map(([value, name]) => made("li", made("b", value), made("span", name))));
+    at("cards").replaceChildren(...told.cards.map(([value, name, word]) =>
+      made("li", made("b", value), made("span", name, ...(word ? [about(this.data.words[word])] : [])))));
     at("facts").replaceChildren(...told.facts.map(([name, value]) => made("tr", made("th", name), made("td", value))));
   }
 

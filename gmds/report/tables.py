@@ -12,6 +12,7 @@ from gmds.maps.point_map import PointMap
 from gmds.maps.words import WORDS
 
 Rows = list[tuple[str, str]]
+Card = tuple[str, str, str]  # a figure, what it is, and which of `WORDS` that is of, if of any
 
 GENERAL = (
     "Drag to turn, scroll or pinch to zoom, Shift and drag to move. With the keyboard: Tab to a surface, then arrow "
@@ -24,9 +25,12 @@ GENERAL = (
 )
 
 
-def cards(rows: Rows) -> str:
-    """The few figures that matter most, as items of a list."""
-    return "".join(f"<li><b>{html.escape(value)}</b><span>{html.escape(name)}</span></li>" for value, name in rows)
+def cards(rows: Iterable[Card]) -> str:
+    """The few figures that matter most, as items of a list, each with a question mark at what it is of."""
+    return "".join(
+        f"<li><b>{html.escape(value)}</b><span>{html.escape(name)}{about(word) if word else ''}</span></li>"
+        for value, name, word in rows
+    )
 
 
 def advice(next_step: str) -> str:
@@ -38,7 +42,7 @@ def advice(next_step: str) -> str:
 def about(word: str) -> str:
     """A question mark that says what a word means."""
     meaning = html.escape(WORDS[word])
-    return f'<abbr class="about" title="{meaning}" aria-label="{meaning}" tabindex="0">?</abbr>'
+    return f'<abbr class="about" title="{meaning}" aria-label="{meaning}" tabindex="0"></abbr>'
 
 
 def words() -> str:

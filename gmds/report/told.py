@@ -11,7 +11,7 @@ from geodesics.arrays import Floats
 from gmds.evaluation import summary
 from gmds.maps.overlap import overlap
 from gmds.maps.point_map import Candidate, MatchStatus, PointMap
-from gmds.report.tables import Rows
+from gmds.report.tables import Card, Rows
 
 VERDICTS = {
     MatchStatus.GOOD: ("good", "GOOD"),
@@ -47,7 +47,7 @@ class Told:
     verdict: str
     status: str
     next: str
-    cards: Rows
+    cards: list[Card]
     facts: Rows
 
     def as_data(self) -> dict[str, Any]:
@@ -86,22 +86,24 @@ def facts(answer: PointMap, errors: Floats | None, *, shares: bool = True) -> Ro
 
 def _of_best(answer: PointMap, errors: Floats | None) -> Told:
     valid = answer.valid
-    found: Rows = [(f"{100 * valid.mean():.1f} %", "of the source has a counterpart")]
+    found: list[Card] = [(f"{100 * valid.mean():.1f} %", "of the source has a counterpart", "")]
     if valid.any() and not np.isnan(answer.confidence).all():
-        found.append((f"{100 * answer.confidence[valid].mean():.0f} %", "of points expected within 0.05 of the truth"))
+        expected = f"{100 * answer.confidence[valid].mean():.0f} %"
+        found.append((expected, "of points expected within 0.05 of the truth", "confidence"))
     elif valid.any() and np.ptp(answer.distortion) > 0:
-        found.append((f"{np.median(answer.distortion[valid]):.3g}", "median distortion"))
+        found.append((f"{np.median(answer.distortion[valid]):.3g}", "median distortion", "distortion"))
     if answer.candidates:
-        found.append((str(len(answer.candidates)), "other maps to compare"))
-    found += [(value, name) for name, value in _judged(errors)[:2]]
+        found.append((str(len(answer.candidates)), "other maps to compare", ""))
+    found += [(value, name, "error") for name, value in _judged(errors)[:2]]
     status = answer.status
     return Told(*VERDICTS[status], status.value.replace("`", ""), NEXT[status], found, facts(answer, errors))
 
 
 def _of_candidate(answer: PointMap, one: Candidate, errors: Floats | None) -> Told:
     stress, orientation = f"{one.stress:.3g}", f"{one.orientation:+.2f}"
-    found: Rows = [(stress, "stress (small is good)"), (orientation, "orientation (1 keeps, -1 mirrors)")]
-    found += [(value, name) for name, value in _judged(errors)[:2]]
+    found: list[Card] = [(stress, "stress (small is good)", "stress")]
+    found.append((orientation, "orientation (1 keeps, -1 mirrors)", "orientation"))
+    found += [(value, name, "error") for name, value in _judged(errors)[:2]]
     rows = [*_sizes(answer), ("stress", stress), ("orientation", orientation), *_judged(errors)]
     return Told(*CANDIDATE, OF_CANDIDATE, NEXT_OF_CANDIDATE, found, rows)
 

@@ -15,6 +15,7 @@ from pages import HOSTILE, Visit, browser, page_data
 from geodesics import SurfacePoints
 from gmds import Correspondence
 from gmds.maps.point_map import Candidate
+from gmds.maps.words import WORDS
 from gmds.report.page import write_report
 from gmds.shapes import quadruped, truth
 
@@ -355,6 +356,67 @@ def test_the_readout_is_in_view_on_a_laptop_while_pointing(running: Any, file: P
         left, top, width, height = camera_of(page, 0)["box"]
         page.mouse.move(left + 0.45 * width, top + 0.5 * height)
         assert page.locator("#stage").bounding_box() == before, "nothing jumps"
+
+
+def test_every_term_has_a_mark_that_says_what_it_means(page: Any) -> None:
+    page.select_option("#map", index=1)
+    meant = [mark.get_attribute("title") for mark in page.locator(".cards abbr, .status abbr").all()]
+    assert {WORDS[word] for word in ("status", "stress", "orientation")} <= set(meant)
+    page.select_option("#map", index=0)
+    meant = [mark.get_attribute("title") for mark in page.locator(".cards abbr").all()]
+    assert WORDS["distortion"] in meant and WORDS["error"] in meant
+    page.check("input[value=distortion]", force=True)
+    mark = page.locator("#legend-label abbr")
+    assert mark.get_attribute("title").startswith(WORDS["distortion"])
+    mark.focus()  # as a finger or the Tab key does, where nothing hovers
+    shown = "(mark) => getComputedStyle(mark, '::after').content"
+    assert WORDS["distortion"][:40] in mark.evaluate(shown)
+
+
+def test_a_length_and_the_axes_of_the_file_are_drawn(answer: Correspondence, page: Any, file: Path) -> None:
+    """The ruler is as long as it says where the middle of the view is, in units of the file."""
+    axes = page.locator("#triads .triad").first
+    assert axes.locator("text").all_text_contents()[:3] == ["x", "y", "z"]
+    length, pixels = page.evaluate(
+        """() => { const ruler = document.querySelector('#triads .triad .ruler');
+        return [Number(ruler.parentNode.querySelector('text').textContent), ruler.getBBox().width]; }"""
+    )
+    camera = camera_of(page, 0)
+    away = np.linalg.norm([camera["eye"][axis] - camera["center"][axis] for axis in "xyz"])
+    size = page_data(file)["surfaces"][0]["unit"]
+    focal = camera["box"][3] / 2 / np.tan(np.pi / 8)
+    assert length > 0 and pixels == pytest.approx(length / size * focal / away, rel=1e-3)
+
+
+def test_the_picture_of_the_page_has_all_panels(page: Any) -> None:
+    from io import BytesIO
+
+    from matplotlib.image import imread
+
+    with page.expect_download() as offered:
+        page.click("#save-view")
+    image = imread(BytesIO(Path(offered.value.path()).read_bytes()))[..., :3]
+    halves = np.array_split(image, 2, axis=1)
+    assert image.shape[1] > 1.5 * image.shape[0] and all(
+        np.unique(half.reshape(-1, 3), axis=0).shape[0] > 500 for half in halves
+    )
+
+
+def test_few_true_points_are_dots_and_print_crops_nothing(answer: Correspondence, running: Any, tmp_path: Path) -> None:
+    errors = np.full(1500, np.nan)
+    errors[::100] = 0.1
+    write_report(tmp_path / "few.html", answer, errors=errors)
+    page = Visit(running, tmp_path / "few.html").page
+    assert page.evaluate("gmdsPage.scenes[0].painter.dots") == 0
+    page.check("input[value=error]", force=True)
+    assert page.evaluate("gmdsPage.scenes[0].painter.dots") == 15
+    assert page.evaluate("getComputedStyle(gmdsPage.scenes[0].plot).touchAction") == "pan-y", "a finger scrolls"
+    page.emulate_media(media="print")
+    page.set_viewport_size({"width": 760, "height": 1100})  # a sheet of A4
+    assert page.evaluate("document.documentElement.scrollWidth") <= 760
+    boxes = [page.locator(f"#panel-{side}").bounding_box() for side in (0, 1)]
+    assert all(box["x"] >= 0 and box["x"] + box["width"] <= 760 and box["height"] > 250 for box in boxes)
+    assert page.locator("#map").is_visible() and not page.locator("#go").is_visible()
 
 
 def test_the_source_becomes_the_target(answer: Correspondence, running: Any, file: Path) -> None:
