@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geodesics import Mesh, SurfacePoints
-from geodesics.arrays import Bools, Floats, Integers
+from geodesics.arrays import Bools, Floats
 from gmds.evaluation import error_curve
 from gmds.maps.growth import growth_of
 from gmds.maps.images import preimage
 from gmds.maps.overlap import reach
-from gmds.maps.point_map import Candidate, MatchStatus, PointMap
+from gmds.maps.point_map import PointMap
 from gmds.maps.words import WORDS
 from gmds.pictures.colours import (
     MISSING,
@@ -25,6 +25,7 @@ from gmds.pictures.colours import (
     symmetric_reach,
     value_colours,
 )
+from gmds.report.candidates import maps_of
 from gmds.report.drawing import Drawing
 from gmds.report.landmarks import Both, NamedPair, landmarks_of, places
 from gmds.report.modes import SIGNED, TOPS, modes
@@ -66,7 +67,7 @@ def content(
 
 def maps_content(answer: PointMap, errors: Floats | None, drawn: Both, title: str = "") -> list[dict[str, Any]]:
     """What the script reads of a map and of each of its candidates; `title` is what the map is called."""
-    maps = _maps(answer)
+    maps = maps_of(answer)
     rows: list[Floats | None] = [None] * len(maps) if errors is None else [*errors, *[None] * (len(maps) - len(errors))]
     fields = [_fields(one, row) for one, row in zip(maps, rows, strict=True)]
     colours = position_colours(answer.target.vertices)
@@ -75,34 +76,6 @@ def maps_content(answer: PointMap, errors: Floats | None, drawn: Both, title: st
         {"name": name, "note": note, "told": of_it.as_data(), **_map(one, drawn, colours, values)}
         for (name, note), one, values, of_it in zip(_names(answer, title), maps, fields, words, strict=True)
     ]
-
-
-class _CandidateMap(NamedTuple):
-    """A candidate as a map of its own."""
-
-    source: Mesh
-    target: Mesh
-    points: SurfacePoints
-    valid: Bools
-    distortion: Floats
-    confidence: Floats
-    status: MatchStatus
-    candidates: tuple[Candidate, ...]
-    meta: Mapping[str, Any]
-
-    def vertex_map(self) -> Integers:
-        return self.points.nearest_vertices()
-
-
-def _maps(answer: PointMap) -> list[PointMap]:
-    """The map itself, then each of its candidates as a map of its own, of which no distortion is known."""
-    unrated, status, meta = np.zeros(len(answer.valid)), MatchStatus.UNRATED, answer.meta
-    unknown = np.full(len(unrated), np.nan)
-    others = (
-        _CandidateMap(answer.source, answer.target, one.points, answer.valid, unrated, unknown, status, (), meta)
-        for one in answer.candidates
-    )
-    return [answer, *others]
 
 
 def _names(answer: PointMap, title: str) -> list[tuple[str, str]]:
