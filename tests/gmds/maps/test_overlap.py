@@ -9,7 +9,7 @@ from generated_shapes import bumpy_sphere, rectangle, with_isolated
 from geodesics import Mesh, SurfacePoints
 from gmds import Correspondence
 from gmds.maps.overlap import area_share, covered_of
-from gmds.report.content import _CandidateMap
+from gmds.report.candidates import CandidateMap
 
 
 def left_of(sheet: Mesh, most: float) -> Correspondence:
@@ -61,7 +61,7 @@ def test_a_surface_covers_itself_but_for_vertices_on_no_face() -> None:
 
 def test_a_map_that_does_not_know_is_asked_as_one_that_does() -> None:
     answer = left_of(rectangle(20, 20), 0.5)
-    plain = _CandidateMap(
+    plain = CandidateMap(
         answer.source,
         answer.target,
         answer.points,
