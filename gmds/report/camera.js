@@ -38,9 +38,15 @@ function project(lensNow, p) {
 }
 
 function projectAll(lensNow, positions) {
+  const { width, height, focal } = lensNow;
+  const [[ex, ey, ez], [rx, ry, rz], [ux, uy, uz], [bx, by, bz]] = ["eye", "right", "up", "back"].map((name) => lensNow[name]);
   const shown = new Float64Array(positions.length);
-  for (let i = 0; i < positions.length; i += 3) {
-    shown.set(project(lensNow, [positions[i], positions[i + 1], positions[i + 2]]), i);
+  for (let i = 0; i < positions.length; i += 3) { // `project`, without an array for each
+    const [x, y, z] = [positions[i] - ex, positions[i + 1] - ey, positions[i + 2] - ez];
+    const depth = -(x * bx + y * by + z * bz);
+    shown[i] = width / 2 + (focal * (x * rx + y * ry + z * rz)) / depth;
+    shown[i + 1] = height / 2 - (focal * (x * ux + y * uy + z * uz)) / depth;
+    shown[i + 2] = depth;
   }
   return shown;
 }

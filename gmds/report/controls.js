@@ -134,9 +134,6 @@ function fail(message) {
 
 async function start() {
   if (!("DecompressionStream" in window)) return fail("This page needs a newer browser: one from 2023 or later.");
-  if (!document.createElement("canvas").getContext("webgl2")) {
-    return fail("This browser cannot draw in 3-D (WebGL is off). The figures and tables below can still be read.");
-  }
   const page = new Page(await unpackedText(at("data").textContent));
   window.gmdsPage = page;
   choose(page);
@@ -152,4 +149,4 @@ async function start() {
   document.body.dataset.ready = "yes";
 }
 
-start().catch((error) => fail(`The page could not be drawn: ${error.message}`));
+start().catch((error) => fail(error.told || `The page could not be drawn: ${error.message}`));

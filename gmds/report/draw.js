@@ -38,10 +38,12 @@ void main() {
   }
 }`;
 
+const NO_WEBGL = "This browser cannot draw in 3-D (WebGL is off). The figures and tables below can still be read.";
+
 class Painter {
   constructor(canvas, faces) {
     this.gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true });
-    if (!this.gl) throw new Error("this browser cannot draw in 3-D (WebGL 2 is off)");
+    if (!this.gl) throw Object.assign(new Error("no WebGL"), { told: NO_WEBGL });
     this.canvas = canvas;
     this.faces = faces;
     this.buffers = {};
