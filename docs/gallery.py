@@ -38,7 +38,7 @@ def distances(path: Path, example: Names) -> None:
     for metric in (geodesics.embedded, geodesics.scale_invariant):
         field = geodesics.GeodesicDistance(metric(mesh)).field(example["start"])[0]
         panels.append((metric.__name__, mesh, field / field.max()))
-    write_values(path, panels, pixels=PIXELS)
+    write_values(path, panels, pixels=PIXELS, isolines=True, label="distance / the largest")
 
 
 def a_map(path: Path, example: Names) -> None:
@@ -169,7 +169,7 @@ def caricatures(path: Path, example: Names) -> None:
     """16: the animal and its caricatures, coloured by the logarithm of the growth of lengths."""
     drawn = example["caricatures"].items()
     panels = [(f"gamma {exponent:g}", one, achieved_log_scale(example["mesh"], one)) for exponent, one in drawn]
-    write_values(path, panels, pixels=PIXELS)
+    write_values(path, panels, pixels=PIXELS, signed=True, label="log of the growth of lengths")
 
 
 def specimen(path: Path, _: Names) -> None:
