@@ -17,7 +17,7 @@ from gmds.mds.ladder import solve_by_ladder
 from gmds.mds.losses import Loss
 from gmds.mds.problem import Problem
 from gmds.mds.solver import Solution
-from gmds.registration.in_space import bent
+from gmds.registration.in_space import HARDLY_BENT, bent
 from gmds.registration.register import Registered, assessed, register
 from gmds.registration.settings import FULL, RegistrationSettings
 from gmds.spectral.extension import extend
@@ -66,13 +66,13 @@ class MapCandidate:
     def neg_log_likelihood(self) -> float:
         """Minus the log-likelihood of the map among maps of this pair, up to a constant: what it is chosen by.
 
-        Its evidence, and where neither surface has limbs how far the source is bent: distances from a similarity are
-        Gaussian residuals too, of which the largest tell the most, as elastic energies hardly feel them.
+        Its evidence, and how far the source is bent: distances from a similarity are Gaussian residuals too, of which
+        the largest tell the most, as elastic energies hardly feel them. Limbs bend, so where there are some it counts
+        only that a map hardly bends anything.
         """
-        total = self.evidence.neg_log_likelihood
-        if not self.pair.limbless:
-            return total
-        return total + float(np.log(max(bent(self.pair.full[0], self.deformation.y), LEAST_BENT)))
+        most = np.inf if self.pair.limbless else HARDLY_BENT
+        by = float(np.clip(bent(self.pair.full[0], self.deformation.y), LEAST_BENT, most))
+        return self.evidence.neg_log_likelihood + float(np.log(by))
 
 
 def make_candidate(

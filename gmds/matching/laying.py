@@ -6,17 +6,16 @@ from dataclasses import replace
 
 from gmds.matching.candidates import MapCandidate
 from gmds.matching.pair import SurfacePair
-from gmds.registration.in_space import bent, in_space
+from gmds.registration.in_space import HARDLY_BENT, bent, in_space
 from gmds.registration.register import Registered, assessed
 from gmds.registration.settings import FULL
 
-# A map is laid in space anew where it lies within so many root areas, in the root mean square, of a similarity: the
-# first of what has no limbs, the second of anything. It is taken where no more than so much of the log-likelihood of
+# A map is laid in space anew where it lies within so many root areas, in the root mean square, of a similarity, if
+# nothing has limbs; of anything within `HARDLY_BENT`. It is taken where no more than so much of the log-likelihood of
 # misfit and curvature is lost. On development pairs teeth, brains and faces lie within 0.06, skulls at 0.008, teddies
 # at 0.07, people and animals in one pose at 0.026 and more; a map that lost 0.17 was far better for it
 # (benchmarks/results/notes.md, "Shapes without limbs").
 MOST_BENT = 0.065
-HARDLY_BENT = 0.02
 MOST_LOST = 0.25
 
 

@@ -13,6 +13,10 @@ from gmds.registration.deformable import DeformableMesh
 from gmds.registration.register import Registered, settled
 from gmds.registration.settings import AFFINE
 
+# Root areas from a similarity within which anything keeps its shape, limbs or not: skulls lie at 0.008 - 0.014, people
+# in one pose at 0.026 and more (benchmarks/results/notes.md, "Shapes without limbs").
+HARDLY_BENT = 0.02
+
 
 def similar(source: DeformableMesh, y: Floats) -> Floats:
     """Where the similarity that is nearest to vertices at y (n, 3) sends them (Umeyama 1991), without mirroring."""
