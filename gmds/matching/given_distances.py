@@ -8,10 +8,11 @@ from typing import NamedTuple
 import numpy as np
 
 from geodesics import Distance, Mesh, SurfacePoints
-from geodesics.arrays import Integers
+from geodesics.arrays import Floats, Integers
 from gmds.matching.pair import SurfacePair
 from gmds.mds.ladder import rungs_below, solve_by_ladder
 from gmds.mds.losses import LeastSquares, Loss
+from gmds.mds.pair_distances import pairwise
 from gmds.mds.problem import Problem
 from gmds.mds.solver import Solution
 from gmds.mds.tabulated import TabulatedDistance
@@ -22,6 +23,9 @@ from gmds.surface.view import View
 # Times that samples are placed, from where the map that continues them has them: on a scaled development pair the
 # second time lowers the error by a twentieth, a third does nothing (benchmarks/results/notes.md, "Plain GMDS").
 TIMES = 2
+# Pairs weigh 1 / (d + NEAR mean d)^2, so that it is shares of distances that are kept, where the loss is smooth: what
+# bends at joints, or saturates, adds up over far pairs (chosen on development pairs, from the true places: there too).
+NEAR = 0.1
 ITERATIONS = 30  # of the solver, each time; chosen with them
 SAME_MASS = 1e-3  # of the mean, by which the masses of two metrics differ at most that are one but for size: a bound
 
@@ -59,19 +63,28 @@ def placed_in_given(
 
     It is first refined in the metric in which it keeps area. Then `count` farthest points, in turn of the given metric
     and of space, are placed so that the given distances agree, and the map is continued from them; that is done `TIMES`
-    times, each from where the last left off, as what is smooth leaves minima that are not. A loss that is sharp at its
-    minimum has its say the last time only, after the smoother ones below it.
+    times, each from where the last left off, as what is smooth leaves minima that are not. Shares of distances are to
+    agree, near pairs weigh more; but a loss that is sharp at its minimum is that of the distances themselves, and has
+    its say the last time only, after the smoother ones below it.
     """
     images, _ = pair.refiner.aligned(images, range(len(ROUNDS)))
     points = SurfacePoints.at_vertices(pair.target.mesh, images)
     samples = _interleaved(given.views[0].samples(count), pair.source.regular.samples(count))
     here = SurfacePoints.at_vertices(pair.source.mesh, samples)
-    problem = Problem(given.distances[0], here, given.distances[1])
+    shares = Problem(given.distances[0], here, given.distances[1], weights=relative_weights(given.distances[0], here))
     for time in range(TIMES):
         now = LeastSquares() if rungs_below(loss) and time < TIMES - 1 else loss
+        problem = Problem(given.distances[0], here, given.distances[1]) if rungs_below(now) else shares
         solution = solve_by_ladder(problem, points[samples], now, max_iterations=ITERATIONS)
         points = pair.refiner.continued(*pair.with_landmarks(samples, solution.points), points)
     return points, solution
+
+
+def relative_weights(distance: Distance, points: SurfacePoints) -> Floats:
+    """Weights (p, p) of pairs with which it is shares of distances that count, but of the shortest."""
+    distances = pairwise(distance, points).distances()
+    shortest = NEAR * distances[np.isfinite(distances)].mean()
+    return np.asarray((distances + shortest) ** -2.0, dtype=np.float64)
 
 
 def _interleaved(first: Integers, second: Integers) -> Integers:

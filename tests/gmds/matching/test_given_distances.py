@@ -6,11 +6,12 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from generated_shapes import joined, torus
 from matched_shapes import animal, bumpy, surface
 
 import gmds
 from geodesics import CommuteTimeDistance, Distance, GeodesicDistance, Mesh, SurfacePoints, eigenpairs, scale_invariant
-from gmds.matching.given_distances import GivenDistances, placed_in_given
+from gmds.matching.given_distances import GivenDistances, placed_in_given, relative_weights
 from gmds.matching.pair import SurfacePair
 from gmds.matching.steps import rounds_of
 from gmds.mds.losses import Huber, LeastSquares, Loss, Minimax
@@ -66,3 +67,25 @@ def test_a_rough_map_is_improved_by_every_loss_in_every_distance(distance: Calla
     after = gmds.geodesic_error(SurfacePoints(target, other.face_index[points.face], points.barycentric), true).mean()
     assert after < 0.5 * before
     assert len(solution.points) == 100 and np.isfinite(solution.stress)
+
+
+def test_far_pairs_weigh_less_whatever_the_unit() -> None:
+    """Twice the distance, and the weights are a quarter everywhere: they are scaled to mean 1 by the problem."""
+    mesh = bumpy()
+    points = SurfacePoints.at_vertices(mesh, np.arange(0, mesh.n_vertices, 20))
+    twice = Mesh(2 * mesh.vertices, mesh.faces)
+    weights = relative_weights(GeodesicDistance(mesh), points)
+    same = relative_weights(GeodesicDistance(twice), SurfacePoints(twice, points.face, points.barycentric))
+    np.testing.assert_allclose(weights / weights.mean(), same / same.mean(), rtol=1e-9)
+    distances = GeodesicDistance(mesh).field(points)[:, np.arange(0, mesh.n_vertices, 20)]
+    far, near = (
+        np.unravel_index(where(distances + np.eye(len(points))), weights.shape) for where in (np.argmax, np.argmin)
+    )
+    assert weights[far] < 0.1 * weights[near]
+
+
+def test_pairs_out_of_reach_weigh_nothing() -> None:
+    both = joined(bumpy(), torus(24, 12))
+    points = SurfacePoints.at_vertices(both, [0, 40, both.n_vertices - 1])
+    weights = relative_weights(GeodesicDistance(both), points)
+    assert weights[0, 2] == 0 and weights[0, 1] > 0 and np.isfinite(weights).all()
