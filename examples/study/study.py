@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import species
+from points import write_and_read_back
 
 import gmds
 from geodesics import write_mesh
@@ -47,7 +48,7 @@ def study(out: Path, count: int = 12, n_vertices: int = 1500, client: Any = None
     points = point_tests(growth, columns[:, 0])
     write_tests(tests, points, atlas.mean, out / "groups")
     first = write_first_component(out, atlas, growth)
-    return compared(known, atlas, growth, points, tests, first)
+    return {**compared(known, atlas, growth, points, tests, first), **write_and_read_back(atlas, out)}
 
 
 def write_first_component(out: Path, atlas: gmds.Atlas, growth: np.ndarray) -> np.ndarray:

@@ -54,8 +54,8 @@ def atlas(
     rounds : int
         From the second on, the mean shape is matched to all specimens; rounds end when it moves no more.
     neighbours : int
-        From how many others each specimen is registered; fewer than 2 leave it at the maps of the templates, and so
-        do ``mirror="auto"``, a `distance`, and a collection of fewer than 4.
+        From how many others each specimen is registered; fewer than 3 leave it at the maps of the templates, and so
+        do ``mirror="auto"``, a `distance`, and a collection of fewer than 5.
     mirror : sequence of str, str or "auto"
         Specimens of the other side, which are mirrored; "auto" finds out which.
     progress : callable, optional

@@ -27,7 +27,9 @@ from gmds.provenance import versions
 
 Progress = Callable[[str, float], None]
 
-FEWEST = 2  # neighbours that have a say: with what the template says they are three, and two can outvote the third
+# Neighbours that have a say. Four were measured on FAUST (`benchmarks/results/atlas.md`); one or two, in collections of
+# a few small meshes, made an atlas no better.
+FEWEST = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +72,7 @@ def kept(job: Job) -> Floats | None:
 def neighbours_of(names: Sequence[str], count: int, template: str) -> list[tuple[str, str]]:
     """Pairs (source, target): each specimen but the template from `count` others, evenly spread over the names.
 
-    None where there would be fewer than two for each: one account cannot outvote another.
+    None where there would be fewer than `FEWEST` for each.
     """
     others = [name for name in names if name != template]
     count = min(count, len(others) - 1)

@@ -44,3 +44,6 @@ def test_what_was_put_in_is_found(example: Any, tmp_path: Path) -> None:
     assert abs(found["ears: difference of species, found"] - put_in) < 0.25
     assert found["share of the specimen without a leg that is missing"] > 0
     assert {"atlas", "groups", "growth.png", "meshes", "model", "specimens.csv"} <= {p.name for p in tmp_path.iterdir()}
+    assert found["points.tps, read back: largest difference"] == 0
+    assert found["points.wide.csv, read back: largest difference"] == 0
+    assert found.get("points.tps, read back by ktch: largest difference", 0.0) == 0

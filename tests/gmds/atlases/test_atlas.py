@@ -16,6 +16,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 import gmds
+import gmds.atlases.neighbours
 import gmds.batch
 from geodesics import Mesh, SurfacePoints, read_mesh, write_mesh
 from gmds.atlases.fusion import Said, fused
@@ -115,8 +116,9 @@ def test_a_run_that_goes_on_writes_the_same_bytes(
 
 
 def test_a_second_round_uses_the_workers_there_are_and_neighbours_and_goes_on_where_it_was(
-    made: tuple[Path, Result], client: Any, folder: Path, tmp_path: Path
+    made: tuple[Path, Result], client: Any, folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr(gmds.atlases.neighbours, "FEWEST", 2)
     shutil.copytree(made[0], tmp_path / "out")
     entered = contextlib.contextmanager(lambda: (yield client))  # as `local_client`: to be entered once
     again = gmds.atlas(folder, tmp_path / "out", mirror=["c"], rounds=2, client=entered())
