@@ -15,6 +15,7 @@ from benchmarks.accuracy import cuts
 from benchmarks.accuracy.halves import pairs_of
 from geodesics import Mesh, SurfacePoints, read_mesh
 from geodesics.arrays import Integers
+from gmds import shapes
 from gmds.benchmarking.pairs import Pair
 from gmds.benchmarking.truth_files import shared_landmarks
 
@@ -37,6 +38,8 @@ TEETH = (  # pairs that pairs.json has not; both kinds of sides
     ("V02", "j18"),
 )
 EVERY_PART, EVERY_CUT = 3, 3
+COARSE = (300, 450, 600)
+POSES = ((shapes.quadruped, "walk"), (shapes.quadruped, "graze"), (shapes.humanoid, "walk"), (shapes.humanoid, "kick"))
 HALVES = ("development", "reporting")
 
 
@@ -65,7 +68,7 @@ def cases() -> list[Case]:
     A pair and its way back are next to another: of four in turn the outer two are for development.
     """
     kinds: dict[str, list[Case]] = {}
-    for name, kind, load, options in itertools.chain(_published(), _anatomy(), _species(), _parts()):
+    for name, kind, load, options in itertools.chain(_published(), _anatomy(), _species(), _parts(), _coarse()):
         of_kind = kinds.setdefault(kind, [])
         of_kind.append(Case(name, kind, load, options, HALVES[len(of_kind) % 4 in (1, 2)]))
     return [case for row in itertools.zip_longest(*kinds.values()) for case in row if case is not None]
@@ -131,6 +134,17 @@ def _parts() -> Iterator[Row]:
             return _known(source, target, known.there, known.points)
 
         yield f"cut {cuts.named(cutting, back)}", "cuts", load, {}
+
+
+def _coarse() -> Iterator[Row]:
+    """Built-in shapes with so few vertices that an ear is a handful, each with itself in another pose."""
+    for n_vertices, (make, pose) in itertools.product(COARSE, POSES):
+
+        def load(n_vertices: int = n_vertices, make: Callable[..., Any] = make, pose: str = pose) -> Known:
+            source, target = make(n_vertices=n_vertices), make(pose, n_vertices=n_vertices, seed=2)
+            return _known(source, target, range(source.n_vertices), shapes.truth(source, target))
+
+        yield f"coarse {make.__name__} {pose} {n_vertices}", "coarse", load, {}
 
 
 def _pair(pair: Pair) -> Callable[[], Known]:
