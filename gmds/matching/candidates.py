@@ -31,9 +31,10 @@ TIME = 3e-3
 # Share of its energy by which another registration may exceed the cheapest, and be polished as well: set by hand, with
 # six pairs of SHREC'20 (benchmarks/results/notes.md, "Landmarks").
 HARDLY_MORE = 0.07
-# Vertices: with fewer, built-in animals and people lose ears to eigenfunctions: with 500, 1.4 % of the points are off
-# by more than 0.1, and none with another registration; with more there are none (the same file, "Effort").
-FEW = 800
+# Vertices: with as many, built-in animals and people lose ears to eigenfunctions: with 500, 1.4 % of the points are off
+# by more than 0.1, and none with another registration. With more there are none, with fewer nothing is gained, and
+# what grew of ears is lost (the same file, "Effort").
+FEW = range(400, 800)
 LEAST_BENT = 0.01  # root areas: a bound, what other triangles of one surface may leave
 ITERATIONS = 20  # of the solver, at the most: with as many the figures of notes.md, "Embedding", were measured
 
@@ -110,7 +111,7 @@ def cheaper(pair: SurfacePair, deformation: Registered, images: Integers) -> tup
     registration, which brings it back unless landmarks hold what is around it, or there are so `FEW` vertices that an
     ear is a handful. Elsewhere nothing is gained, and the other is not looked at.
     """
-    few = min(len(surface.regular.usable) for surface in (pair.source, pair.target)) < FEW
+    few = min(len(surface.regular.usable) for surface in (pair.source, pair.target)) in FEW
     if (pair.landmarks is None and not few) or deformation.residuals.is_congruence:
         return deformation, None
     direct = register(*pair.full, pair.target.mesh.vertices[images], pair.settings)
