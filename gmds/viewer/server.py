@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import secrets
+import signal
+import threading
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
 from urllib.parse import parse_qs, urlsplit
@@ -40,6 +42,20 @@ class PageServer(ThreadingHTTPServer):
     def link(self) -> str:
         """What to open in a browser."""
         return f"http://127.0.0.1:{self.port}/?token={self.token}"
+
+    def serve_until_interrupted(self) -> None:
+        """Answers until Ctrl-C.
+
+        The interrupt asks for the end and raises nothing: an exception would be lost in whatever it falls into, a
+        finaliser for one.
+        """
+        previous = signal.signal(signal.SIGINT, lambda *_: threading.Thread(target=self.shutdown, daemon=True).start())
+        try:
+            self.serve_forever()
+        except KeyboardInterrupt:  # of a SIGTERM
+            pass
+        finally:
+            signal.signal(signal.SIGINT, previous)
 
     def handle_error(self, request: Any, client_address: Any) -> None:
         """A connection that broke is no matter of ours."""

@@ -60,10 +60,8 @@ def command(map_file: Path, source: Path, target: Path, no_browser: bool, **opti
         note("open this link in a browser of this machine; Ctrl-C ends it")
         if not no_browser:
             click.launch(server.link)
-        try:
-            server.serve_forever()
-        except KeyboardInterrupt:
-            note("ended")
+        server.serve_until_interrupted()
+        note("ended")
 
 
 def _landmarks(
