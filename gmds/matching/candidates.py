@@ -9,10 +9,11 @@ import numpy as np
 from geodesics import DiffusionDistance, Distance, SurfacePoints
 from geodesics.arrays import Integers
 from geodesics.caching import cached_property
+from gmds.matching.effort import keeps_sizes
 from gmds.matching.evidence import Evidence, evidence
 from gmds.matching.given_distances import GivenDistances, placed_in_given
 from gmds.matching.pair import SurfacePair
-from gmds.matching.proposals import Proposal
+from gmds.matching.proposals import FEWEST_DECIDED, Proposal
 from gmds.mds.ladder import solve_by_ladder
 from gmds.mds.losses import Loss
 from gmds.mds.problem import Problem
@@ -31,10 +32,6 @@ TIME = 3e-3
 # Share of its energy by which another registration may exceed the cheapest, and be polished as well: set by hand, with
 # six pairs of SHREC'20 (benchmarks/results/notes.md, "Landmarks").
 HARDLY_MORE = 0.07
-# Vertices: with as many, built-in animals and people lose ears to eigenfunctions: with 500, 1.4 % of the points are off
-# by more than 0.1, and none with another registration. With more there are none, with fewer nothing is gained, and
-# what grew of ears is lost (the same file, "Effort").
-FEW = range(400, 800)
 LEAST_BENT = 0.01  # root areas: a bound, what other triangles of one surface may leave
 ITERATIONS = 20  # of the solver, at the most: with as many the figures of notes.md, "Embedding", were measured
 
@@ -93,7 +90,9 @@ def make_candidate(
     if given is None:
         better, views = refined_images(pair, images)
         points, solution = placed(pair, better, views, loss, count, diffusion_distances(*views))
-        deformation, other = cheaper(pair, registered(pair, points), images)
+        deformation = registered(pair, points)
+        if may_lose_extremities(pair, proposal):
+            deformation, other = cheaper(pair, deformation, images)
         points = deformation.points
     else:
         views = given.views
@@ -103,18 +102,29 @@ def make_candidate(
     return MapCandidate(pair, points, views, solution, deformation, weighed, other)
 
 
+def may_lose_extremities(pair: SurfacePair, proposal: Proposal) -> bool:
+    """Whether a foot or an ear that the proposal has right may be lost to eigenfunctions, and not come back.
+
+    Registration brings it back unless landmarks hold what is around it, or it is a handful of vertices. Where parts
+    grew nothing is gained without landmarks: a map that denies it takes less energy.
+    """
+    if pair.landmarks is not None:
+        return True
+    fewest = min(len(surface.regular.usable) for surface in (pair.source, pair.target))
+    return fewest < FEWEST_DECIDED and keeps_sizes(pair.simplified[0], proposal.registered.y)
+
+
 def cheaper(pair: SurfacePair, deformation: Registered, images: Integers) -> tuple[Registered, Registered | None]:
     """That `deformation` or one from where the proposal sends vertices, `images` (n,), whichever takes less energy.
 
-    And the other of both, if it takes hardly more: one that gave up a wrong landmark is none the worse for it. Where
-    surfaces differ a foot or an ear may be lost to eigenfunctions between a proposal that has it right and the
-    registration, which brings it back unless landmarks hold what is around it, or there are so `FEW` vertices that an
-    ear is a handful. Elsewhere nothing is gained, and the other is not looked at.
+    And with landmarks the other of both, if it takes hardly more: one that gave up a wrong landmark is none the worse
+    for it. Without them what saves hardly anything is not taken.
     """
-    few = min(len(surface.regular.usable) for surface in (pair.source, pair.target)) in FEW
-    if (pair.landmarks is None and not few) or deformation.residuals.is_congruence:
+    if deformation.residuals.is_congruence:
         return deformation, None
     direct = register(*pair.full, pair.target.mesh.vertices[images], pair.settings)
+    if pair.landmarks is None and deformation.residuals.energy < (1 + HARDLY_MORE) * direct.residuals.energy:
+        return deformation, None
     best, other = sorted((deformation, direct), key=lambda one: one.residuals.energy)
     return best, other if other.residuals.energy < (1 + HARDLY_MORE) * best.residuals.energy else None
 

@@ -85,18 +85,17 @@ def test_of_two_that_cost_nearly_the_same_both_are_kept(bent_animal: SurfacePair
     assert other.residuals.energy < (1 + candidates.HARDLY_MORE) * best.residuals.energy
 
 
-@pytest.mark.parametrize("few", [True, False])
-def test_without_landmarks_there_is_one_registration_of_what_is_not_coarse(
-    few: bool, bent_animal: SurfacePair, registrations: list[bool], monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(("growth", "fewest", "again"), [(1.0, 601, True), (1.0, 600, False), (2.0, 601, False)])
+def test_without_landmarks_coarse_meshes_alone_that_keep_their_sizes_are_registered_twice(
+    growth: float, fewest: int, again: bool, bent_animal: SurfacePair, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    pair = replace(bent_animal, landmarks=None)
-    monkeypatch.setattr(candidates, "FEW", range(600, 601) if few else range(601, 602))
-    images = np.arange(pair.source.mesh.n_vertices)
-    found = candidates.registered(pair, at(pair, images))
-    done = len(registrations)
-    best, other = candidates.cheaper(pair, found, images)
-    assert few or (best, other) == (found, None)
-    assert len(registrations) == done + few
+    monkeypatch.setattr(candidates, "FEWEST_DECIDED", fewest)
+    source = bent_animal.source.mesh
+    larger = source.vertices * np.where(source.vertices[:, :1] > 0.3, growth, 1.0)
+    pair = SurfacePair(bent_animal.source, measure(Mesh(larger, source.faces)))
+    proposal = Proposal.of(pair, pair.target.mesh.vertices[pair.simplified[0].origin])
+    assert candidates.may_lose_extremities(pair, proposal) is again
+    assert candidates.may_lose_extremities(bent_animal, proposal)
 
 
 def at(pair: SurfacePair, images: Integers) -> SurfacePoints:
