@@ -14,6 +14,7 @@ from geodesics.caching import cached_property
 from gmds.correspondence import Correspondence
 from gmds.landmarks.constraints import LandmarkConstraints
 from gmds.maps.point_map import Candidate, MatchStatus
+from gmds.matching.annealing import annealed
 from gmds.matching.candidates import make_candidate
 from gmds.matching.given_distances import GivenDistances
 from gmds.matching.pair import SurfacePair
@@ -77,8 +78,9 @@ class Attempt:
         pair = SurfacePair(source, image.of(target), wanted.landmarks, image.reverses)
         rounds, given = rounds_of(pair, wanted.distance)
         found = proposals(pair, rounds, starts_of(pair), lambda share: wanted.report("proposing", 0.2 + 0.3 * share))
+        maps = [*found.maps, *([] if given is not None or found.isometric else annealed(pair, found.maps))]
         pair = replace(pair, isometric=found.isometric)
-        return cls(image, pair, likely_maps(found.maps, pair.simplified[0].areas), given, wanted)
+        return cls(image, pair, likely_maps(maps, pair.simplified[0].areas), given, wanted)
 
     @cached_property
     def of_parts(self) -> list[PartAnswer]:

@@ -50,10 +50,14 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, eq=False)
 class Proposal:
-    """A map of the simplified source, `registered` to the simplified target, and the target `back` to it."""
+    """A map of the simplified source, `registered` to the simplified target, and the target `back` to it.
+
+    `annealed`: whether it began with all eigenfunctions, positions and normals already.
+    """
 
     registered: Registered
     back: Registered
+    annealed: bool = False
 
     @classmethod
     def of(cls, pair: SurfacePair, places: Floats) -> Proposal:
