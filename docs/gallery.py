@@ -1,4 +1,6 @@
-"""The pictures of docs/gallery.md: each example is run, and what it computed is drawn; two minutes for all of them.
+"""The pictures of docs/gallery.md: each example is run, and what it computed is drawn; some minutes for all of them.
+
+Those at the head of README and of other pages are among them: demo.png and parts.png.
 
 python docs/gallery.py                  # all, into docs/gallery
 python docs/gallery.py 04 10            # some
@@ -12,6 +14,7 @@ import contextlib
 import io
 import os
 import runpy
+import shutil
 import sys
 import tempfile
 from collections.abc import Callable
@@ -44,18 +47,19 @@ def distances(path: Path, example: Names) -> None:
 def a_map(path: Path, example: Names) -> None:
     """02: a map, and how much in doubt it is."""
     write_picture(path, example["answer"], pixels=PIXELS)
+    write_picture(path.with_name("demo.png"), example["answer"], names=("dog.ply", "wolf.off"))
 
 
 def before_and_after(path: Path, example: Names) -> None:
-    """03: commute-time distances from one sample, before and after limbs grew and shrank, in two metrics."""
+    """03: geodesic distances from one sample, before and after limbs grew and shrank, in two metrics."""
     panels = []
     for metric in (geodesics.embedded, geodesics.scale_invariant):
         for when in ("before", "after"):
             mesh = example[when]
             sample = geodesics.SurfacePoints.at_vertices(mesh, example["samples"][:1])
-            field = example["distances"]["commute time"](metric(mesh)).field(sample)[0]
-            panels.append((f"{metric.__name__}, {when}", mesh, field / field.max()))
-    write_values(path, panels, pixels=PIXELS * 2 // 3)
+            field = example["distances"]["geodesic"](metric(mesh)).field(sample)[0]
+            panels.append((f"{metric.__name__}, {when}", mesh, field / field.mean()))
+    write_values(path, panels, pixels=PIXELS * 2 // 3, isolines=True, label="distance / the mean")
 
 
 def cells(path: Path, example: Names) -> None:
@@ -69,7 +73,7 @@ def signatures(path: Path, example: Names) -> None:
     signature = example["signatures"]["heat kernel"]
     found = [np.log(signature(spectrum)[:, 4]) for spectrum in example["spectra"]]
     panels = [(when, example[when], values) for when, values in zip(("before", "after"), found, strict=True)]
-    write_values(path, panels, title="heat kernel signature (log), scale_invariant", pixels=PIXELS)
+    write_values(path, panels, title="scale_invariant", pixels=PIXELS, label="log of the heat kernel signature")
 
 
 def map_and_errors(path: Path, example: Names) -> None:
@@ -92,7 +96,7 @@ def arc_lengths(path: Path, example: Names) -> None:
         middle = geodesics.SurfacePoints.at_vertices(mesh, [60 * 30 + 30])
         field = geodesics.GeodesicDistance(example["lengths"]["gaussian_curvature"](mesh)).field(middle)[0]
         panels.append((name, mesh, field))
-    write_values(path, panels, pixels=PIXELS * 2 // 3)
+    write_values(path, panels, pixels=PIXELS * 2 // 3, isolines=True, label="arc length of K")
 
 
 def labels(path: Path, example: Names) -> None:
@@ -105,12 +109,14 @@ def labels(path: Path, example: Names) -> None:
 
 def eigenfunctions(path: Path, example: Names) -> None:
     """10: the first eigenfunction, in the metric that the script looked at last."""
-    write_values(path, example["panels"], title=example["metric"].__name__, pixels=PIXELS)
+    title = example["metric"].__name__
+    write_values(path, example["panels"], title=title, pixels=PIXELS, signed=True, label="first eigenfunction")
 
 
 def part_and_whole(path: Path, example: Names) -> None:
     """11: the map of the whole to the part; that of the part to the whole is the picture of README."""
     write_picture(path, example["back"], names=("whole", "part"), pixels=PIXELS)
+    shutil.copy("parts.png", path.with_name("parts.png"))
 
 
 def canonical_forms(path: Path, example: Names) -> None:
@@ -123,8 +129,14 @@ def canonical_forms(path: Path, example: Names) -> None:
             second = pair[1].positions
             u, _, vt = np.linalg.svd(second[example["partner"]].T @ first)
             for (pose, mesh), positions in zip(example["poses"].items(), (first, second @ u @ vt), strict=True):
-                panels.append((f"{name}, {pose}", geodesics.Mesh(positions, mesh.faces), mesh.vertices[:, 0]))
-    write_values(path, panels, pixels=PIXELS * 2 // 3)
+                panels.append((f"{name}, {pose}", outside_out(positions, mesh), mesh.vertices[:, 0]))
+    write_values(path, panels, pixels=PIXELS * 2 // 3, label="x of the animal")
+
+
+def outside_out(positions: Any, mesh: geodesics.Mesh) -> geodesics.Mesh:
+    """The mesh with its vertices elsewhere, its faces turned where that left them inside out."""
+    volume = np.linalg.det(positions[mesh.faces]).sum()
+    return geodesics.Mesh(positions, mesh.faces if volume > 0 else mesh.faces[:, ::-1])
 
 
 def matrices(path: Path, example: Names) -> None:
@@ -148,7 +160,7 @@ def rough_and_improved(path: Path, example: Names) -> None:
     height = example["target"].vertices[:, 0]
     carried = [("rough", example["rough"]), ("spectral GMDS", example["placed"].points), ("truth", example["true"])]
     panels = [(name, example["source"], points.interpolate(height)) for name, points in carried]
-    write_values(path, panels, pixels=PIXELS)
+    write_values(path, panels, pixels=PIXELS, isolines=True, label="x of the target")
 
 
 def bounds(path: Path, example: Names) -> None:
@@ -173,11 +185,10 @@ def caricatures(path: Path, example: Names) -> None:
 
 
 def specimen(path: Path, _: Names) -> None:
-    """The morphometrics script has drawn its specimens itself; one of them, smaller."""
+    """The morphometrics script has drawn its specimens itself; one of them, in fewer colours."""
     from PIL import Image
 
     image = Image.open(Path("morphometrics") / "pictures" / "long_tail.png").convert("RGB")
-    image.thumbnail((2 * PIXELS, 2 * PIXELS))
     image.quantize(128).save(path, optimize=True)
 
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from geodesics.arguments import real_numbers
+from geodesics.arrays import Floats
 from geodesics.distance import as_points
 from geodesics.errors import BadArgument, BadShape, MissingExtra
 from geodesics.extras import how_to_install
@@ -19,6 +21,7 @@ COLOURS = "Cividis"  # told apart by people who confuse red and green
 PLAIN = "rgb(190,200,215)"
 POINT_COLOUR = "rgb(200,60,0)"
 POINT_SIZE = 5  # pixels
+LINE_WIDTH = 6  # pixels
 LIGHT = {"ambient": 0.55, "diffuse": 0.6, "specular": 0.1, "roughness": 0.8}
 
 
@@ -27,6 +30,8 @@ def plot(
     values: ArrayLike | None = None,
     *,
     points: SurfacePoints | ArrayLike | None = None,
+    paths: Sequence[SurfacePoints | ArrayLike] = (),
+    label: str = "",
     title: str = "",
     up: tuple[float, float, float] = (0, 0, 1),
 ) -> Any:
@@ -41,6 +46,10 @@ def plot(
         is not finite is drawn at the lower end. Or red, green and blue for each, from 0 to 1.
     points : SurfacePoints or array_like of int, optional
         Points, or vertices, to be marked.
+    paths : sequence of SurfacePoints or array_like of shape (k, 3)
+        Lines to be drawn, each from point to point.
+    label : str
+        What the values are, and in which unit, beside the bar of colours.
     title : str
         Above it.
     up : three floats
@@ -54,7 +63,8 @@ def plot(
     Raises
     ------
     MeshError
-        E108 when there is not one value for each vertex; E105 for points that do not exist.
+        E108 when there is not one value for each vertex, or a path is no row of positions; E105 for points that do
+        not exist.
     ValueError
         For colours that are not from 0 to 1, and an `up` that is no direction.
     MissingExtra
@@ -82,10 +92,15 @@ def plot(
     looks = {"lighting": LIGHT, "flatshading": False, "hovertemplate": "vertex %{text}<extra></extra>"}
     surface = go.Mesh3d(**_axes(mesh.vertices), **corners, text=np.arange(mesh.n_vertices), **looks)
     surface.update(_colours(values, mesh.n_vertices))
+    if label:
+        surface.update(colorbar={"title": {"text": label, "side": "right"}})
     figure = go.Figure(surface)
     if points is not None:
         marker = {"size": POINT_SIZE, "color": POINT_COLOUR}
         figure.add_scatter3d(**_axes(as_points(mesh, points).positions), mode="markers", marker=marker, name="points")
+    if len(paths):
+        line = {"width": LINE_WIDTH, "color": POINT_COLOUR}
+        figure.add_scatter3d(**_axes(_broken_line(paths)), mode="lines", line=line, name="paths")
     hidden = {f"{axis}axis": {"visible": False} for axis in "xyz"}
     camera = {"up": dict(zip("xyz", _direction(up), strict=True))}
     figure.update_layout(title=title, scene={"aspectmode": "data", "camera": camera, **hidden})
@@ -98,6 +113,17 @@ def _direction(up: Any) -> list[float]:
     if found.shape != (3,) or not np.isfinite(found).all() or not found.any():
         raise BadArgument(f"up must be a direction of three numbers, as (0, 0, 1), not {up!r:.60}")
     return [float(x) for x in found]
+
+
+def _broken_line(paths: Sequence[SurfacePoints | ArrayLike]) -> Floats:
+    """Positions (k, 3) along all paths, with a row of NaN after each, where plotly lifts the pen."""
+    rows = []
+    for path in paths:
+        places = path.positions if isinstance(path, SurfacePoints) else real_numbers(path, "paths")
+        if places.ndim != 2 or places.shape[1] != 3:
+            raise BadShape(f"a path must be positions of shape (k, 3), not {places.shape}")
+        rows += [places, np.full((1, 3), np.nan)]
+    return np.concatenate(rows)
 
 
 def _axes(positions: Any) -> dict[str, Any]:

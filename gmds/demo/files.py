@@ -8,13 +8,15 @@ from pathlib import Path
 import numpy as np
 
 from geodesics import Mesh, SurfacePoints, read_mesh, write_mesh
-from geodesics.arrays import Integers
+from geodesics.arrays import Floats, Integers
 from gmds.correspondence import Correspondence
+from gmds.demo.character import write_character
 from gmds.shapes import quadruped, truth
 
 VERTICES = 5000  # of dog.ply and wolf.off, as in the pages
 HEAD = 2.0  # size of the wolf's head by the dog's, as in `gmds.shapes.demo_pair`
 BONES = 4  # of bones.npy; set by hand
+GRADES = 256  # of the weights of a bone: their sums are 1 exactly, in files of single precision as well
 
 
 @dataclass(frozen=True)
@@ -32,8 +34,8 @@ def write_files(folder: Path, n_vertices: int = VERTICES) -> list[str]:
     before = {path for path in folder.rglob("*") if path.is_file()}
     pair = _write_pair(folder, n_vertices)
     _write_landmarks(folder, pair)
-    _write_values(folder, pair.wolf)
-    _write_looks(folder, pair.wolf)
+    weights = _write_values(folder, pair.wolf)
+    _write_looks(folder, pair.wolf, weights)
     _write_collections(folder, max(n_vertices // 5, 60))
     made = {path for path in folder.rglob("*") if path.is_file()} - before
     return sorted(path.relative_to(folder).as_posix() for path in made)
@@ -70,17 +72,20 @@ def _write_landmarks(folder: Path, pair: Pair) -> None:
         write_landmarks(folder / name, Landmarks(names, pair.wolf.vertices[pair.vertices[at]]))
 
 
-def _write_values(folder: Path, wolf: Mesh) -> None:
-    """Heights, parts and weights of bones: a row for every vertex of the wolf."""
+def _write_values(folder: Path, wolf: Mesh) -> Floats:
+    """Heights, parts and weights of bones, which are returned: a row for every vertex of the wolf."""
     np.savetxt(folder / "heights.csv", wolf.vertices[:, 2])
     (folder / "parts.txt").write_text("\n".join(np.where(wolf.vertices[:, 2] > 1, "1", "2")))
     along = np.linspace(wolf.vertices[:, 0].min(), wolf.vertices[:, 0].max(), BONES)
     weights = np.exp(-(((wolf.vertices[:, :1] - along) / (along[1] - along[0])) ** 2))
-    np.save(folder / "bones.npy", weights / weights.sum(axis=1, keepdims=True))
+    weights = np.rint(GRADES * weights / weights.sum(axis=1, keepdims=True)) / GRADES
+    weights[np.arange(len(weights)), weights.argmax(axis=1)] += 1 - weights.sum(axis=1)
+    np.save(folder / "bones.npy", weights)
+    return np.asarray(weights)
 
 
-def _write_looks(folder: Path, wolf: Mesh) -> None:
-    """The wolf with colours, and with a texture of two charts; wolf.obj and wolf.glb need Pillow."""
+def _write_looks(folder: Path, wolf: Mesh, weights: Floats) -> None:
+    """The wolf with colours, with a texture of two charts, and as a rigged character; all but the first need Pillow."""
     from gmds.appearance import Look, write_look
 
     try:
@@ -96,6 +101,7 @@ def _write_looks(folder: Path, wolf: Mesh) -> None:
     image = Image.fromarray(np.array([(200, 150, 90), (90, 110, 150)], dtype=np.uint8)[squares])
     for name in ("wolf.obj", "wolf.glb"):
         write_look(folder / name, wolf, Look(uv=uv, image=image))
+    write_character(folder / "character.glb", wolf, weights, image)
 
 
 def _write_collections(folder: Path, n: int) -> None:

@@ -30,7 +30,7 @@ def judgement(answer: PointMap, errors: ArrayLike | None, show: str) -> Judgemen
         raise BadArgument(f"a picture shows doubt or growth, not {show!r}")
     if errors is not None:
         values = nearest_known(answer.source, errors)
-        return Judgement("error", values, shown_range(values), "error")
+        return Judgement("error", values, shown_range(values), "error / √area")
     if show == "growth":
         values = growth_of(answer).relative
         reach = symmetric_reach(values)

@@ -9,8 +9,9 @@ from numpy.typing import ArrayLike
 
 from gmds.maps.overlap import covered_of
 from gmds.maps.point_map import PointMap
+from gmds.pictures.balls import with_balls
 from gmds.pictures.camera import Direction, alignment, broadside
-from gmds.pictures.colours import MISSING, position_colours
+from gmds.pictures.colours import BARE, MISSING, few_known, position_colours
 from gmds.pictures.figure import Panel
 from gmds.pictures.judgement import judgement
 from gmds.pictures.software import Shot
@@ -41,8 +42,9 @@ def write_picture(  # noqa: PLR0913 - as much as there is to choose
     answer : Correspondence
         The map, of n source vertices.
     errors : array of shape (n,), optional
-        Shown on the source in a third view; where one is not finite, that of the nearest vertex. Without them it shows
-        doubt, 1 less the confidence of the map, or its distortion where nobody rated it.
+        Over the root of the target's area, shown on the source in a third view: where one is not finite, that of the
+        nearest vertex, and as balls where few are known, at most half of them. Without errors it shows doubt, 1 less
+        the confidence of the map, or its distortion where nobody rated it.
     title, names : str, two str
         Above it all, and of source and target.
     up : three floats
@@ -101,6 +103,10 @@ def map_panels(
     ]
     caption, values, limits, label, signed = judgement(answer, errors, show)
     if errors is not None or values.any():
-        shown = coloured(np.where(answer.valid, values, np.nan), limits, signed=signed)
-        panels.append(Panel(caption, Shot(answer.source, shown, view, pixels), limits, label, signed))
+        values = np.where(answer.valid, values, np.nan)
+        shape, shown = answer.source, coloured(values, limits, signed=signed)
+        if errors is not None and len(known := few_known(np.asarray(errors, dtype=np.float64))):
+            plain = np.tile(BARE, (shape.n_vertices, 1))
+            shape, shown = with_balls(shape, plain, shape.vertices[known], shown[known])
+        panels.append(Panel(caption, Shot(shape, shown, view, pixels), limits, label, signed))
     return panels

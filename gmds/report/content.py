@@ -19,6 +19,7 @@ from gmds.maps.words import WORDS
 from gmds.pictures.colours import (
     MISSING,
     diverging_colours,
+    few_known,
     nearest_known,
     position_colours,
     shown_range,
@@ -34,7 +35,6 @@ from gmds.report.told import told
 
 BARS = 40  # of a histogram; set by hand
 THRESHOLDS = np.linspace(0, 0.25, 51)  # errors, over the root of the area: the range in which the field draws curves
-FEW = 2_000  # points with known truth, up to which they are drawn as dots; set by hand
 
 
 def content(
@@ -150,8 +150,7 @@ def _fitted(key: str, values: Floats) -> float:
 
 def _dots(source: Mesh, errors: Floats | None, drawn: Drawing) -> dict[str, Any] | None:
     """The points whose truth is known and their errors, where they are few."""
-    known = np.empty(0, dtype=np.int64) if errors is None else np.flatnonzero(np.isfinite(errors))
-    if errors is None or not 0 < len(known) <= min(FEW, source.n_vertices // 2):
+    if errors is None or not len(known := few_known(errors)):
         return None
     return {"position": drawn.placed(source.vertices[known]), "error": errors[known].astype("<f4")}
 

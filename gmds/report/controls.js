@@ -91,6 +91,7 @@ function listMaps(page) {
   at("map").selectedIndex = Math.max(chosen[0], 0);
   at("beside").value = chosen[1];
   for (const id of ["map-choice", "beside-choice"]) at(id).hidden = page.data.maps.length < 2;
+  page.keepRoom();
 }
 
 function choose(page) {
@@ -123,6 +124,7 @@ function choose(page) {
   });
   document.addEventListener("keydown", (event) => { if (event.key === "Escape" && !(page.work && page.work.escaped())) page.pin(null); });
   new ResizeObserver(() => { page.scenes.forEach((scene) => scene.resized()); page.marks.draw(); }).observe(at("stage"));
+  addEventListener("resize", () => page.keepRoom());
   addEventListener("beforeprint", () => page.scenes.forEach((scene) => { scene.drawNow(); }));
 }
 

@@ -3,6 +3,13 @@
 
 const SETTLED = 120; // ms after the last turn until what is hidden is asked anew
 const AXES = ["x", "y", "z"];
+const AWAY = 9, HALO = 3; // pixels: from a point to its name, and about that
+
+// a name stands on the outer side of its point, unless the panel ends there
+function beside([left, right], wide) {
+  const leftwards = left < right ? left > wide : right < wide && left > wide;
+  return leftwards ? { x: -AWAY, "text-anchor": "end" } : { x: AWAY };
+}
 
 class Marks {
   constructor(page) {
@@ -20,7 +27,7 @@ class Marks {
     const hidden = moving ? this.hidden.get(key) : scene.place(position).hidden;
     if (key) this.hidden.set(key, hidden);
     const inside = x >= 0 && y >= 0 && x <= box.width && y <= box.height;
-    return { x: box.left - stage.left + x, y: box.top - stage.top + y, hidden, inside };
+    return { x: box.left - stage.left + x, y: box.top - stage.top + y, hidden, inside, room: [x, box.width - x] };
   }
 
   moved() {
@@ -82,6 +89,14 @@ class Marks {
     }));
   }
 
+  // pixels from a point to the end of its name
+  wide(name) {
+    this.pen = this.pen || document.createElement("canvas").getContext("2d");
+    const { fontSize, fontFamily } = getComputedStyle(at("labels"));
+    this.pen.font = `${fontSize} ${fontFamily}`;
+    return AWAY + this.pen.measureText(name).width + HALO;
+  }
+
   labels() {
     const { page } = this;
     const shown = at("named").checked && !Number(at("morph").value) ? page.landmarks : [];
@@ -90,7 +105,7 @@ class Marks {
       if (!place.inside) return "";
       const kind = `label${place.hidden ? " hidden" : ""}${mark.at[1 - side] ? "" : " alone"}${i === page.chosenLandmark ? " chosen" : ""}`;
       return svg("g", { class: kind, transform: `translate(${place.x} ${place.y})`, "data-landmark": i, "data-panel": side },
-        svg("path", { d: "M0 -6 L6 0 L0 6 L-6 0 Z" }), svg("text", { x: 9, y: 4 }, mark.name));
+        svg("path", { d: "M0 -6 L6 0 L0 6 L-6 0 Z" }), svg("text", { ...beside(place.room, this.wide(mark.name)), y: 4 }, mark.name));
     })));
   }
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from geodesics.arrays import Floats
 from gmds.maps.words import WORDS
+from gmds.pictures.colours import few_known
 from gmds.report.packing import levels
 
 # where fixed scales end: conventions, 1 is certainty, 0.69 twice as long
@@ -42,8 +43,8 @@ def modes(known: Sequence[str], errors: Floats | None = None) -> list[dict[str, 
     swatches = levels(np.array([UNMATCHED_COLOUR, MATCHED_COLOUR])).tolist()
     found: list[dict[str, Any]] = [{"key": "match", "label": "Matching colours", "help": MATCH}]
     for key in known:
-        few = errors is not None and key == "error" and 2 * int(np.isfinite(errors[0]).sum()) < errors.shape[1]
-        sparse = SPARSE.format(f"{int(np.isfinite(errors[0]).sum()):,}") if few and errors is not None else ""
+        few = len(few_known(errors[0])) if errors is not None and key == "error" else 0
+        sparse = SPARSE.format(f"{few:,}") if few else ""
         about = {"key": key, "label": key.capitalize(), "help": WORDS[key] + LOOK[key] + sparse, "axis": AXES[key]}
         counted = "points" if sparse else "vertices"
         found.append(

@@ -122,6 +122,7 @@ class Page {
     at("note").textContent = map.note;
     at("legend-ramp").hidden = !mode.high;
     at("legend-valid").hidden = !mode.swatches;
+    at("legend-match").hidden = mode.key !== "match";
     at("fit-choice").style.visibility = mode.high && mode.key in map.tops ? "" : "hidden";
     at("largest").textContent = mode.reversed ? "Lowest" : "Largest";
     at("largest").style.visibility = mode.high ? "" : "hidden";
@@ -135,8 +136,7 @@ class Page {
   }
 
   // the badge, the figures and the advice are those of the map that is shown
-  tell() {
-    const { told } = this.map;
+  tell({ told } = this.map) {
     at("badge").className = `badge ${told.badge}`;
     at("badge").textContent = told.verdict;
     at("status").textContent = told.status;
@@ -144,6 +144,15 @@ class Page {
     at("cards").replaceChildren(...told.cards.map(([value, name, word]) =>
       made("li", made("b", value), made("span", name, ...(word ? [about(this.data.words[word])] : [])))));
     at("facts").replaceChildren(...told.facts.map(([name, value]) => made("tr", made("th", name), made("td", value))));
+  }
+
+  // as much room for these words as any map needs, so that nothing jumps when another is shown
+  keepRoom() {
+    const header = document.querySelector("header");
+    header.style.minHeight = "";
+    const heights = this.data.maps.map((map) => { this.tell(map); return header.offsetHeight; });
+    header.style.minHeight = `${Math.max(...heights)}px`;
+    this.tell();
   }
 
   drawCharts() {

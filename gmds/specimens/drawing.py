@@ -22,6 +22,7 @@ PIXELS = 560  # of the longer side of a view; set by hand
 COLUMNS = 3  # of the sheet; set by hand
 FILLED = 0.94  # of a view, by the surface, as `render` draws it
 AZIMUTHS = (30.0, 210.0)  # degrees about the upward axis: the two sides of an animal
+LETTER, AWAY = 7, 6  # pixels of a view: of a letter at most, and from a landmark to its name, which stands outside
 CLOSE = 0.02  # of the size of the specimen by which a landmark may lie behind what covers it, and is seen all the same
 
 
@@ -111,8 +112,11 @@ def _save(path: Path, specimens: Sequence[tuple[Specimen, list[View]]], names: S
             axis.set_axis_off()
             for i in np.flatnonzero(seen).tolist():
                 ink = DOUBTFUL if one.doubtful[i] else "black"
-                x, y = spots[i] + [6, -6]
-                axis.text(x, y, names[i], fontsize=8 * max(share, 0.6), color=ink, parse_math=False)
+                x, y = spots[i]
+                leftwards = len(names[i]) * LETTER < x < wide / 2 or x + len(names[i]) * LETTER > wide
+                place = {"x": x - AWAY, "ha": "right"} if leftwards else {"x": x + AWAY}
+                size = 8 * max(share, 0.6)
+                axis.text(y=y - AWAY, s=names[i], fontsize=size, color=ink, parse_math=False, **place)
             left += wide / width / across
         middle = (number % across + 0.5) / across
         figure.text(middle, top - 4 / height / down, one.name, ha="center", va="top", parse_math=False)

@@ -28,6 +28,19 @@ def test_a_figure_has_the_surface_its_values_and_points() -> None:
     assert figure.layout.title.text == "height" and figure.layout.scene.aspectmode == "data"
 
 
+def test_paths_are_lines_with_a_gap_between_them_and_the_bar_says_what_it_shows() -> None:
+    pytest.importorskip("plotly")
+    points = geodesics.SurfacePoints.at_vertices(MESH, [1, 2])
+    figure = geodesics.plot(MESH, MESH.vertices[:, 2], paths=[MESH.vertices[[3, 5, 6]], points], label="height / mm")
+    surface, lines = figure.data
+    drawn = np.stack([lines.x, lines.y, lines.z], axis=1).astype(float)
+    assert lines.mode == "lines" and np.isnan(drawn[[3, 6]]).all()
+    assert np.allclose(drawn[[0, 1, 2, 4, 5]], MESH.vertices[[3, 5, 6, 1, 2]])
+    assert surface.colorbar.title.text == "height / mm"
+    with pytest.raises(BadShape, match="a path must be"):
+        geodesics.plot(MESH, paths=[[1.0, 2.0]])
+
+
 def test_colours_and_bad_values() -> None:
     pytest.importorskip("plotly")
     assert geodesics.plot(MESH, np.ones((MESH.n_vertices, 3))).data[0].vertexcolor[0] == "rgb(255,255,255)"

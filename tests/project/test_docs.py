@@ -17,12 +17,14 @@ from typing import Any
 
 import click
 import docs_files
+import numpy as np
 import pytest
 from click.testing import CliRunner
 from places import ROOT
 from sybil import Document, Example
 from sybil.parsers.markdown import CodeBlockParser, PythonCodeBlockParser, SkipParser
 
+import geodesics
 import gmds
 from gmds.batch.records import UNEXPECTED, WORKER_DIED
 from gmds.cli import main
@@ -78,6 +80,13 @@ def among_files(files: Path, as_a_reader: Path) -> Path:
     """The same, with the files in it."""
     shutil.copytree(files, as_a_reader, dirs_exist_ok=True)
     return as_a_reader
+
+
+def test_the_character_is_the_wolf_with_bones(files: Path) -> None:
+    """Its pose at rest is the mesh of wolf.off to the last bit, so that the map of the one serves the other."""
+    character, wolf = geodesics.read_mesh(files / "character.glb"), geodesics.read_mesh(files / "wolf.off")
+    assert np.array_equal(character.vertices, wolf.vertices) and np.array_equal(character.faces, wolf.faces)
+    assert (np.load(files / "bones.npy").sum(axis=1) == 1).all()
 
 
 RAN: set[str] = set()

@@ -16,7 +16,7 @@ from gmds import Correspondence
 from gmds.cli.fields import PICTURES
 from gmds.errors import PictureFormat, RenderingError
 from gmds.pictures.camera import alignment, broadside
-from gmds.pictures.colours import MISSING, css, label_colours, position_colours, value_colours
+from gmds.pictures.colours import BARE, MISSING, css, label_colours, position_colours, value_colours
 from gmds.pictures.figure import FORMATS
 from gmds.pictures.offscreen import offscreen
 from gmds.pictures.panels import map_panels, write_picture
@@ -113,12 +113,17 @@ def test_without_pyvista_the_picture_is_drawn_and_the_extra_named(
     assert (tmp_path / "map.png").exists()
 
 
-def test_a_truth_that_is_known_at_few_points_colours_what_is_nearest(answer: Correspondence, tmp_path: Path) -> None:
+def test_a_truth_that_is_known_at_few_points_is_drawn_as_balls(answer: Correspondence) -> None:
     errors = np.full(500, np.nan)
     errors[[3, 400]] = 0.1, 0.2
     panel = map_panels(answer, errors)[2]
-    assert panel.caption == "error"
-    assert len(np.unique(panel.shot.colours[answer.valid], axis=0)) == 2
+    balls, colours = panel.shot.mesh.vertices[500:].reshape(2, -1, 3), panel.shot.colours[500:].reshape(2, -1, 3)
+    assert panel.caption == "error" and panel.label == "error / √area"
+    assert (panel.shot.colours[:500] == BARE).all() and np.ptp(colours, axis=1).max() == 0
+    assert np.allclose(balls.mean(axis=1), answer.source.vertices[[3, 400]])
+    assert not np.allclose(colours[0, 0], colours[1, 0])
+    most = np.where(np.arange(500) % 3 > 0, 0.1, np.nan)
+    assert map_panels(answer, most)[2].shot.mesh.n_vertices == 500, "as many as most vertices are a surface"
 
 
 def pixels_of(path: Path) -> np.ndarray:
@@ -232,6 +237,35 @@ def test_colours_stay_in_range_and_missing_values_are_grey() -> None:
 def test_value_colours_grow_lighter_so_that_grey_prints_read() -> None:
     light = value_colours(np.linspace(0, 1, 50), 0, 1) @ [0.2126, 0.7152, 0.0722]
     assert (np.diff(light) > 0).all()
+
+
+DEUTAN = [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]]
+PROTAN = [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]]
+
+
+CONES = [
+    [0.4122214708, 0.5363325363, 0.0514459929],
+    [0.2119034982, 0.6806995451, 0.1073969566],
+    [0.0883024619, 0.2817188376, 0.6299787005],
+]
+OKLAB = [
+    [0.2104542553, 0.7936177850, -0.0040720468],
+    [1.9779984951, -2.4285922050, 0.4505937099],
+    [0.0259040371, 0.7827717662, -0.8086757660],
+]
+
+
+@pytest.mark.parametrize("eyes", [np.eye(3), DEUTAN, PROTAN])  # in linear light; Machado, Oliveira, Fernandes 2009
+def test_the_four_feet_have_four_colours(eyes: object) -> None:
+    """Also while it walks, and as three kinds of eyes see them: 0.08 in OKLab, four times what is just seen."""
+    animal = quadruped("walk", n_vertices=500)
+    colours = position_colours(animal.vertices)
+    linear = np.where(colours <= 0.04045, colours / 12.92, ((colours + 0.055) / 1.055) ** 2.4)
+    seen = np.cbrt((linear @ np.transpose(eyes)).clip(0, 1) @ np.transpose(CONES)) @ np.transpose(OKLAB)
+    x, y, z = animal.vertices.T
+    low, fore = z < z.min() + 0.1 * np.ptp(z), x > np.median(x[z < z.min() + 0.1 * np.ptp(z)])
+    feet = [seen[low & (fore == f) & ((y > 0) == s)].mean(axis=0) for f in (True, False) for s in (True, False)]
+    assert min(np.linalg.norm(a - b) for i, a in enumerate(feet) for b in feet[:i]) > 0.08
 
 
 def test_left_and_right_differ_for_eyes_without_red_or_green() -> None:

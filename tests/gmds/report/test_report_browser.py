@@ -177,6 +177,76 @@ def test_what_is_drawn_is_where_the_page_believes_it_is(answer: Correspondence, 
     assert len(rows) > 40 and np.median(alike) > 0.999 and (alike > 0.97).mean() > 0.75  # some are at an outline
 
 
+def painted_at(page: Any, side: int, places: np.ndarray) -> np.ndarray:
+    """What is on the canvas of a panel, where the page believes that positions (p, 3) are: red, green and blue."""
+    return np.array(
+        page.evaluate(
+            """([side, places]) => {
+                const scene = gmdsPage.scenes[side], {gl, canvas} = scene.painter, one = new Uint8Array(4);
+                scene.drawNow();
+                const fine = canvas.width / scene.plot.clientWidth;
+                return places.map((place) => {
+                    const [x, y] = project(scene.lens, place).map((c) => Math.floor(c * fine));
+                    gl.readPixels(x, canvas.height - 1 - y, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, one);
+                    return Array.from(one.slice(0, 3));
+                });
+            }""",
+            [side, places.tolist()],
+        ),
+        dtype=float,
+    )
+
+
+def in_front(page: Any, side: int, places: np.ndarray) -> np.ndarray:
+    """Which of the positions (p, 3) the surface does not hide, and the panel shows."""
+    seen = """([side, places]) => places.map((p) => {
+        const scene = gmdsPage.scenes[side], {x, y, hidden} = scene.place(p);
+        return !hidden && x > 1 && y > 1 && x < scene.plot.clientWidth - 1 && y < scene.plot.clientHeight - 1;
+    })"""
+    at_outline = painted_at(page, side, places).sum(axis=1) == 0
+    return np.array(page.evaluate(seen, [side, places.tolist()])) & ~at_outline
+
+
+@pytest.mark.parametrize("side", [0, 1])
+def test_squares_are_dark_at_the_same_points_of_both_surfaces(
+    answer: Correspondence, page: Any, file: Path, side: int
+) -> None:
+    """A point of the source is in the square of its image: cells of the target's box, every second one darker."""
+    data = page_data(file)
+    places = data["surfaces"][side]["vertices"].reshape(-1, 3)
+    seats = data["maps"][0]["there"]["position"].reshape(-1, 3) / 65535 - 0.5 if side == 0 else places
+    cells = seats * 14  # squares from one end of the target to the other
+    deep = np.abs(cells - np.rint(cells)).min(axis=1) > 0.2  # within its square
+    rows = np.flatnonzero(deep & (answer.valid if side == 0 else True))[::3]
+    rows = rows[in_front(page, side, places[rows])]
+    plain = painted_at(page, side, places[rows])
+    page.check("#squares", force=True)
+    ratio = painted_at(page, side, places[rows]).sum(axis=1) / plain.sum(axis=1)
+    dark = np.floor(cells[rows]).astype(int).sum(axis=1) % 2 == 1
+    assert len(rows) > 40 and 0.2 < dark.mean() < 0.8
+    assert np.median(ratio[dark]) == pytest.approx(0.72, abs=0.02) and np.median(ratio[~dark]) == pytest.approx(1)
+    assert np.mean((ratio < 0.86) == dark) > 0.95  # some are at an outline
+    page.check("input[value=distortion]", force=True)
+    assert not page.locator("#squares").is_visible(), "squares belong to matching colours"
+    page.check("input[value=match]", force=True)
+    page.uncheck("#squares", force=True)
+    assert np.array_equal(painted_at(page, side, places[rows]), plain)
+
+
+def test_edges_are_drawn_where_faces_meet_and_nowhere_else(page: Any, file: Path) -> None:
+    surface = page_data(file)["surfaces"][0]
+    places, faces = surface["vertices"].reshape(-1, 3), surface["faces"].reshape(-1, 3)
+    page.evaluate("() => gmdsPage.scenes[0].look(zoomed(gmdsPage.scenes[0].camera, 0.3))")  # faces of many pixels
+    middles, edges = places[faces[::6]].mean(axis=1), places[faces[::6, :2]].mean(axis=1)
+    rows = np.flatnonzero(in_front(page, 0, middles) & in_front(page, 0, edges))
+    before = [painted_at(page, 0, where[rows]).sum(axis=1) for where in (middles, edges)]
+    page.check("#wireframe")
+    after = [painted_at(page, 0, where[rows]).sum(axis=1) for where in (middles, edges)]
+    page.uncheck("#wireframe")
+    inside, along = (late / early for late, early in zip(after, before, strict=True))
+    assert len(rows) > 40 and np.median(inside) == 1 and np.median(along) < 0.85
+
+
 def test_switching_map_and_colours(answer: Correspondence, page: Any, file: Path) -> None:
     data = page_data(file)
     painted = "() => Array.from(gmdsPage.scenes[0].painted)"
@@ -223,6 +293,22 @@ def test_switching_map_and_colours(answer: Correspondence, page: Any, file: Path
     )
     page.uncheck("#fit")
     assert page.locator("#high").inner_text() == "0.25"
+
+
+def test_no_word_of_another_map_moves_the_surfaces(running: Any, tmp_path: Path) -> None:
+    """Whatever the candidates need for their figures is kept free while the best map is shown."""
+    source = quadruped(n_vertices=500)
+    points = SurfacePoints.at_vertices(source, np.arange(500))
+    other = Candidate(points, 0.2, -0.8)
+    answer = Correspondence.from_points(source, points, candidates=(other, other))
+    write_report(tmp_path / "two.html", answer, errors=np.ones((3, 500)), title="A name that is rather long, " * 3)
+    for width, height in ((1366, 650), (390, 800)):
+        page = Visit(running, tmp_path / "two.html", width=width, height=height).page
+        boxes = []
+        for number in (0, 1, 2, 0):
+            page.select_option("#map", index=number)
+            boxes.append(page.locator("#stage").bounding_box())
+        assert boxes == boxes[:1] * 4
 
 
 def test_every_click_keeps_a_pair_and_escape_lets_all_go(page: Any) -> None:
@@ -357,6 +443,34 @@ def test_the_readout_is_in_view_on_a_laptop_while_pointing(running: Any, file: P
         left, top, width, height = camera_of(page, 0)["box"]
         page.mouse.move(left + 0.45 * width, top + 0.5 * height)
         assert page.locator("#stage").bounding_box() == before, "nothing jumps"
+
+
+def test_names_of_landmarks_stand_outside_and_within_the_panel(
+    answer: Correspondence, running: Any, tmp_path: Path
+) -> None:
+    """From wherever it is looked at, in a narrow window as well; the tip of the tail has its name outside."""
+    source, target = answer.source.vertices, answer.points.positions
+    tips = [source[:, 0].argmin(), source[:, 0].argmax(), source[:, 2].argmax()]
+    given = [(name, source[i], target[i]) for name, i in zip(("tail", "nose", "tip of the ear"), tips, strict=True)]
+    write_report(tmp_path / "named.html", answer, landmarks=given)
+    page = Visit(running, tmp_path / "named.html", width=390, height=800).page
+    for look in ("front", "left", "back"):
+        page.click(f"[data-side={look}]")
+        page.evaluate("() => new Promise((done) => setTimeout(done, 200))")
+        shown = page.locator("#labels .label")
+        assert shown.count() == 6
+        for label in shown.all():
+            panel = page.locator(f"#panel-{label.get_attribute('data-panel')} .plot").bounding_box()
+            text = label.locator("text").bounding_box()
+            assert panel["x"] <= text["x"] and text["x"] + text["width"] <= panel["x"] + panel["width"]
+    page.click("[data-side=front]")
+    page.evaluate("() => new Promise((done) => setTimeout(done, 200))")
+    tail, nose = (page.locator(f"#labels [data-landmark='{i}'][data-panel='0']") for i in (0, 1))
+    left, right = sorted((tail, nose), key=lambda one: one.locator("path").bounding_box()["x"])
+    assert (left.locator("text").get_attribute("text-anchor"), right.locator("text").get_attribute("text-anchor")) == (
+        "end",
+        None,
+    )
 
 
 def test_without_webgl_the_page_says_so(running: Any, file: Path) -> None:
