@@ -188,7 +188,7 @@ def specimen(path: Path, _: Names) -> None:
     """The morphometrics script has drawn its specimens itself; one of them, in fewer colours."""
     from PIL import Image
 
-    image = Image.open(Path("morphometrics") / "pictures" / "long_tail.png").convert("RGB")
+    image = Image.open(Path("morphometrics") / "pictures" / "long_legs.png").convert("RGB")
     image.quantize(128).save(path, optimize=True)
 
 

@@ -9,8 +9,9 @@ import numpy as np
 from geodesics import SurfacePoints
 from geodesics.arrays import Bools, Floats
 from gmds.errors import LandmarkError
+from gmds.evaluation import geodesic_error
 from gmds.landmarks.checking import place_on
-from gmds.landmarks.files import Landmarks
+from gmds.landmarks.files import Landmarks, paired
 from gmds.maps.images import confidence_between, image
 from gmds.maps.point_map import PointMap
 
@@ -111,3 +112,36 @@ def carry_landmarks(answer: PointMap, landmarks: Landmarks) -> CarriedLandmarks:
     valid = valid & landmarks.defined
     confidence = np.where(valid, confidence_between(on_source, answer.confidence), 0.0)
     return CarriedLandmarks(landmarks, on_source, on_target, moved, valid, distortion, confidence)
+
+
+def landmark_errors(carried: CarriedLandmarks, known: Landmarks) -> Floats:
+    """How far carried landmarks are from where they are known to be, as `gmds.geodesic_error` has it.
+
+    Parameters
+    ----------
+    carried : CarriedLandmarks
+        k landmarks on the target of a map.
+    known : Landmarks
+        Those of the target, all or some, placed by hand say; they pair up by name where both have names, else by order.
+
+    Returns
+    -------
+    float64 array of shape (k,)
+        Errors, over the root of the target's area; NaN where the place is not known, or the map has none.
+
+    Raises
+    ------
+    LandmarkError
+        When none pairs up (E303), or for places that are not on the target (E301, E302, E304, E305).
+
+    See Also
+    --------
+    carry_landmarks : Carries them.
+    """
+    rows = np.where(carried.valid, np.arange(len(carried.given)), -1)
+    ours, theirs, _ = paired(Landmarks(carried.names, rows, carried.given.named), known)
+    mesh = carried.on_target.mesh
+    names = [theirs.distinct_names[i] for i in range(len(theirs))] if theirs.named else ()
+    errors = np.full(len(carried.given), np.nan)
+    errors[ours.at] = geodesic_error(carried.on_target[ours.at], place_on(theirs.at, mesh, "target", names))
+    return errors

@@ -42,6 +42,7 @@ class FileOrFolder(OutputFile):
 @click.option("--workers", type=click.IntRange(min=1), help="Processes for a folder.  [default: one a processor]")
 @up_option
 @click.option("--map", "map_file", type=FILE, help="A map from SOURCE to TARGET; without it they are matched.")
+@click.option("--known", type=FILE, help="Landmarks of TARGET that are known, to say how far off each is.")
 @space_option
 @specimen_option
 @orientation_option
@@ -73,6 +74,7 @@ def command(source: Path, landmarks: Path | None, target: Path | None, output: P
       confidence  The probability, from 0 to 1, that a point is sent to within 0.05 root areas of the target of where it
                   belongs; 0 where it has no counterpart. None for a map that was not rated, as one of an older release
       valid       whether it has a counterpart; where it has none the confidence is 0 and there is no place
+      error       with --known: how far it is from the known place, along TARGET, over the square root of its area
 
     Landmarks without a counterpart, or without a place on SOURCE, keep their places in the list: missing or undefined
     in .mrk.json, NA in .csv, .tps, .pts and .vts, not active in .pp; a .fcsv cannot say so, they are left out.
@@ -87,40 +89,50 @@ def command(source: Path, landmarks: Path | None, target: Path | None, output: P
       maps/                              the maps, as `gmds batch` writes them: what is there is not made again
     The template is the first in every table. A specimen that cannot be used is named and left out; the exit code is 3.
     """
-    given, template = options.pop("template_landmarks"), options.pop("template")
+    given, template, truth = (options.pop(name) for name in ("template_landmarks", "template", "known"))
     if template is not None:
-        if given is None or landmarks is not None or options["map_file"] is not None:
+        if given is None or landmarks is not None or options["map_file"] is not None or truth is not None:
             raise click.UsageError("a folder takes --template and --landmarks, and nothing else beside -o")
         from gmds.cli.landmark_collection import landmark_collection
 
         return landmark_collection(source, template, given, output, **options)
     if landmarks is None or target is None:
         raise click.UsageError("give SOURCE, LANDMARKS and TARGET; or a folder, --template and --landmarks")
-    _one(source, landmarks, target, output, options)
+    _one(source, landmarks, target, output, {**options, "truth": truth})
 
 
 def _one(source: Path, landmarks: Path, target: Path, output: Path, options: dict[str, Any]) -> None:
     """The landmarks of one mesh on another."""
     from geodesics import read_mesh
-    from gmds.landmarks.files import ending, write_landmarks
-    from gmds.landmarks.transfer import carry_landmarks
+    from gmds.landmarks.files import ending, paired, write_landmarks
+    from gmds.landmarks.transfer import carry_landmarks, landmark_errors
 
     as_vertices = ending(output) == ".vts"  # before the matching: a wrong ending should not cost minutes
     meshes = read_mesh(source), read_mesh(target)
     space, as_json = options["space"], options["as_json"]
     marks = landmarks_of(landmarks, space, meshes[0], source, options["specimen"])
     check_on(marks, meshes[0], "source")  # likewise
+    truth = options["truth"] and landmarks_of(options["truth"], space, meshes[1], target)
+    if truth is not None:
+        check_on(truth, meshes[1], "target")
+        paired(marks, truth)
     answer = _map(*meshes, options["map_file"], options["orientation"], options["seed"])
     carried = carry_landmarks(answer, marks)
     columns = {
         "confidence": ["NA" if value is None else round(value, 4) for value in known(carried.confidence)],
         "valid": carried.valid.astype(int).tolist(),
     }
+    rows = _told(carried)
+    errors = [] if truth is None else known(landmark_errors(carried, truth))
+    if errors:
+        columns["error"] = ["NA" if value is None else round(value, 5) for value in errors]
+        rows = [row | {"error": value} for row, value in zip(rows, errors, strict=True)]
     write_landmarks(output, carried.landmarks(vertices=as_vertices), space, columns)
     if marks.missing:
         note(f"{len(marks.missing)} landmarks have no place on the source: {', '.join(marks.missing)}")
-    rows = _told(carried)
-    summary = {"landmarks": str(output), "status": answer.status.name, "meaning": answer.status.value}
+    summary: dict[str, Any] = {"landmarks": str(output), "status": answer.status.name, "meaning": answer.status.value}
+    if found := [value for value in errors if value is not None]:
+        summary["mean_error_x100"] = 100 * sum(found) / len(found)
     lines = {f"landmark {name}": row for name, row in zip(marks.distinct_names, rows, strict=True)}
     plain = {title: {key: row[key] for key in row if key != "name"} for title, row in lines.items()}
     emit(summary | ({"carried": rows} if as_json else plain), as_json)

@@ -17,7 +17,7 @@ from gmds.cli import main
 from gmds.correspondence import Correspondence
 from gmds.errors import LandmarkError, MapError
 from gmds.landmarks.files import Landmarks, read_landmarks, write_landmarks
-from gmds.landmarks.transfer import carry_landmarks
+from gmds.landmarks.transfer import carry_landmarks, landmark_errors
 from gmds.maps.images import image
 from gmds.maps.npz_format import read_meta
 from gmds.maps.point_map import MatchStatus
@@ -212,3 +212,34 @@ def test_in_python_vertices_are_not_moved() -> None:
     assert carried.landmarks(vertices=True).at.tolist() == [1, -1] and carried.valid.tolist() == [True, False]
     with pytest.raises(LandmarkError, match="E302"):
         carry_landmarks(answer_of(SHAPE, TARGET), Landmarks(("a", "b"), np.array([1, 1])))
+
+
+def test_errors_of_landmarks_whose_places_are_known(pair: tuple[Path, Path], tmp_path: Path) -> None:
+    """By name, in another order; one is off by an edge, one not known, and of one the map has no counterpart."""
+    source, target = pair
+    face = TARGET.faces[(TARGET.faces == 7).any(axis=1)][0]
+    neighbour = int(face[face != 7][0])
+    write_landmarks(tmp_path / "a.csv", Landmarks(("nose", "lost", "tail", "ear"), np.array([3, LOST, 7, 11])))
+    true = Landmarks(("ear", "tail", "lost"), TARGET.vertices[[11, neighbour, LOST]])
+    write_landmarks(tmp_path / "b.csv", true)
+    command = ("landmarks", source, tmp_path / "a.csv", target, "--known", tmp_path / "b.csv", "--json")
+    result = run(*command, "-o", tmp_path / "out.csv")
+    assert result.exit_code == 0, result.output
+    told = json.loads(result.stdout)
+    errors = [row["error"] for row in told["carried"]]
+    edge = np.linalg.norm(TARGET.vertices[neighbour] - TARGET.vertices[7]) / np.sqrt(TARGET.area)
+    assert errors[:2] == [None, None] and errors[2] == pytest.approx(edge) and errors[3] == pytest.approx(0, abs=1e-9)
+    assert told["mean_error_x100"] == pytest.approx(50 * edge)
+    lines = (tmp_path / "out.csv").read_text(encoding="utf-8").splitlines()
+    assert lines[0].endswith("error") and [line.split(",")[-1] for line in lines[1:3]] == ["NA", "NA"]
+    write_landmarks(tmp_path / "c.csv", Landmarks(("snout",), TARGET.vertices[[3]]))
+    GIVEN.clear()
+    other = run(*command[:5], tmp_path / "c.csv", "-o", tmp_path / "no.csv")
+    assert other.exit_code != 0 and "E303" in other.stderr and not GIVEN, "before anything is matched"
+
+
+def test_without_names_errors_go_by_order() -> None:
+    answer = answer_of(SHAPE, TARGET)
+    carried = carry_landmarks(answer, Landmarks(("1", "2"), np.array([5, 9]), named=False))
+    true = Landmarks(("1", "2"), TARGET.vertices[[5, 9]], named=False)
+    assert landmark_errors(carried, true) == pytest.approx([0, 0], abs=1e-9)
