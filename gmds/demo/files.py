@@ -16,6 +16,7 @@ from gmds.shapes import quadruped, truth
 VERTICES = 5000  # of dog.ply and wolf.off, as in the pages
 HEAD = 2.0  # size of the wolf's head by the dog's, as in `gmds.shapes.demo_pair`
 BONES = 4  # of bones.npy; set by hand
+BLEND = 0.6  # of the way from bone to bone, over which one hands over to the next; set by hand
 GRADES = 256  # of the weights of a bone: their sums are 1 exactly, in files of single precision as well
 
 
@@ -77,7 +78,7 @@ def _write_values(folder: Path, wolf: Mesh) -> Floats:
     np.savetxt(folder / "heights.csv", wolf.vertices[:, 2])
     (folder / "parts.txt").write_text("\n".join(np.where(wolf.vertices[:, 2] > 1, "1", "2")))
     along = np.linspace(wolf.vertices[:, 0].min(), wolf.vertices[:, 0].max(), BONES)
-    weights = np.exp(-(((wolf.vertices[:, :1] - along) / (along[1] - along[0])) ** 2))
+    weights = np.exp(-(((wolf.vertices[:, :1] - along) / (BLEND * (along[1] - along[0]))) ** 2))
     weights = np.rint(GRADES * weights / weights.sum(axis=1, keepdims=True)) / GRADES
     weights[np.arange(len(weights)), weights.argmax(axis=1)] += 1 - weights.sum(axis=1)
     np.save(folder / "bones.npy", weights)

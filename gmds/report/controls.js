@@ -110,10 +110,10 @@ function choose(page) {
     button.addEventListener("click", () => from(rotated(LEVEL, ...SIDES[button.dataset.side]))));
   at("reset").addEventListener("click", () => from(FIRST));
   at("roll").addEventListener("click", () => both((camera) => rolled(camera, Math.PI / 2)));
-  at("largest").addEventListener("click", () => page.goToWorst());
+  at("largest").addEventListener("click", () => goToWorst(page));
   at("go").addEventListener("submit", (event) => {
     event.preventDefault();
-    page.goTo(Number(at("go-side").value), Number(at("go-vertex").value));
+    goTo(page, Number(at("go-side").value), Number(at("go-vertex").value));
   });
   at("save-pins").addEventListener("click", () => offer(new Blob([pinsTable(page)], { type: "text/csv" }), "pairs.csv"));
   at("drop-pins").addEventListener("click", () => page.pin(null));

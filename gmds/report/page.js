@@ -233,44 +233,4 @@ class Page {
   }
 
   changed() {}
-
-  // marks a vertex by its number in the file, for whoever has no pointer
-  goTo(side, number) {
-    const vertex = this.data.surfaces[side].origin.indexOf(number);
-    if (vertex >= 0) this.pin({ side, vertex });
-    else at("readout").textContent = `Vertex ${number} is not among the points that are drawn of ${this.data.surfaces[side].name}.`;
-  }
-
-  // to what is worst: the largest value, or the lowest where low is bad
-  goToWorst() {
-    const { mode, map } = this;
-    const sign = mode.reversed ? -1 : 1;
-    let most = -1;
-    map.values[mode.key][0].forEach((value, i, all) => { if (map.there.found[i] && Number.isFinite(value) && !(sign * value <= sign * all[most])) most = i; });
-    if (most < 0) return;
-    this.turnTo(0, most);
-    this.pin({ side: 0, vertex: most });
-  }
-
-  // to the side from which a vertex of a panel is seen best
-  turnTo(side, vertex) {
-    const scene = this.scenes[side];
-    const kept = scene.camera;
-    const sums = normals(scene.positions, scene.surface.faces);
-    const normal = unit(Array.from(sums.subarray(3 * vertex, 3 * vertex + 3)));
-    const seen = (camera) => {
-      scene.camera = camera;
-      scene.shown = null;
-      return scene.place(scene.vertex(vertex)).hidden ? -2 : Math.abs(dot(normal, scene.lens.back));
-    };
-    const steps = [0, -0.7, 0.7].flatMap((rise) => Array.from({ length: 12 }, (_, i) => rotated(rotated(kept, 0, rise), (i * Math.PI) / 6, 0)));
-    const worth = steps.map(seen);
-    seen(kept);
-    const best = steps[worth.indexOf(Math.max(...worth))];
-    seen(best);
-    const { x, y } = scene.place(scene.vertex(vertex));
-    const inside = x > 0 && y > 0 && x < scene.plot.clientWidth && y < scene.plot.clientHeight;
-    seen(kept);
-    scene.look(inside ? best : fitted(this.scenes.slice(0, 2), { ...best, center: FIRST.center, eye: named(minus(xyz(best.eye), xyz(best.center))) }));
-  }
 }

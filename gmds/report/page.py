@@ -25,7 +25,18 @@ from gmds.report.drawing import Drawing, drawing
 from gmds.report.modes import MATCHED_COLOUR, UNMATCHED_COLOUR
 from gmds.report.packing import fingerprint_of, packed_data
 
-SCRIPTS = ("unpack.js", "camera.js", "draw.js", "scene.js", "charts.js", "marks.js", "page.js", "out.js", "controls.js")
+SCRIPTS = (
+    "unpack.js",
+    "camera.js",
+    "draw.js",
+    "scene.js",
+    "charts.js",
+    "marks.js",
+    "page.js",
+    "finding.js",
+    "out.js",
+    "controls.js",
+)
 
 
 def write_report(

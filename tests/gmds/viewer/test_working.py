@@ -20,7 +20,7 @@ from gmds.viewer.server import PageServer
 from gmds.viewer.workplace import Workplace
 
 ON_SCREEN = """([side, vertex]) => {
-    gmdsPage.turnTo(side, vertex);
+    turnTo(gmdsPage, side, vertex);
     const scene = gmdsPage.scenes[side], place = scene.place(scene.vertex(vertex));
     const box = scene.plot.getBoundingClientRect();
     return [box.left + place.x, box.top + place.y];
@@ -140,6 +140,9 @@ def test_landmarks_are_moved_named_deleted_and_brought_back(pair: SwappedPair, r
         assert json.loads(page.evaluate(told))[0]["at"][0] == pytest.approx(json.loads(before)[0]["at"][0])
         page.click("[aria-label='Delete landmark 1']")
         assert page.evaluate(told) == "[]"
+        page.set_viewport_size({"width": 390, "height": 800})
+        surfaces, tools = (page.locator(name).bounding_box()["y"] for name in ("#stage", "#work"))
+        assert surfaces < tools, "a phone shows the surfaces first"
         page.wait_for_function("async () => { await gmdsPage.work.sending; return true; }")
     assert place.edits.landmarks == ()
 
