@@ -21,6 +21,8 @@ from gmds.pictures.camera import Direction, broadside
 FACES = 4000  # of the copy that is drawn: what a browser sorts and fills 30 times a second
 SLIDERS = 6  # components that have one, a bound of the room there is
 DIGITS = 4  # of coordinates, over the extent of the shape
+PICTURED = 200  # specimens that are there as they are, 16 kB each: a page of 3 MB; the others as the model has them
+STEP = 1e-4  # of their coordinates, over the extent of the shape: finer than a pixel
 
 
 def write_model_page(model: ShapeModel, path: Path, *, title: str = "Shape model", up: Direction = (0, 0, 1)) -> None:
@@ -36,9 +38,16 @@ def write_model_page(model: ShapeModel, path: Path, *, title: str = "Shape model
         for axis, variance in zip(model.components_[:count], model.explained_variance_[:count], strict=True)
     ]
     spread = np.sqrt(model.explained_variance_[:count])
+    placed = [
+        (points.interpolate(one) - mean.vertices.mean(axis=0)) @ view.T / extent / STEP
+        for one in model.aligned_[:PICTURED]
+    ]
+    short = np.clip(np.round(placed), -(2**15) + 1, 2**15 - 1).astype("<i2")
     data = {
         "vertices": _plain((copy.vertices - mean.vertices.mean(axis=0)) @ view.T / extent),
         "faces": copy.faces.tolist(),
+        "step": STEP,
+        "specimens": base64.b64encode(short.tobytes()).decode(),
         "modes": [_plain(mode) for mode in modes],
         "shares": [round(float(share), 4) for share in model.explained_variance_ratio_[:count]],
         "names": list(model.names_) or [f"{i + 1}" for i in range(len(model.scores_))],
