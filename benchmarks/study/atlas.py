@@ -3,15 +3,15 @@
     GMDS_DATA=... python -m benchmarks.study.atlas MAPS [--sets 'FAUST;teeth'] [--workers 1]
 
 Sets: six people in six poses of FAUST, judged on eight ordered pairs; copies of a horse of which parts are scaled, one
-in another pose, of `scaled/`; teeth, faces and endocasts of `anatomy/`, judged on the pairs of `pairs.json` (a specimen
-that is the source of one pair and, renumbered, the target of another is there twice). Errors x100 by the protocol of
-the field, of 50 points at most. *composed* goes through the atlas of one template without neighbours, which is
-composition; *neighbours* through one of one template as `gmds atlas` makes it; *voted* through one of three templates.
-*settled* is *neighbours* with each pair registered once more from there (`settled_places`): no longer one
-triangulation; and `seconds` is the CPU time of that. The cycle is how far from home points of one specimen come through
-two others on registered meshes, over the root of its area. Where all specimens have the same points, generalisation and
-specificity of a model of the true points, and of the points where the atlas carries those of the first specimen. Modest
-on purpose: minutes of CPU a set. MAPS keeps maps from run to run.
+in another pose, of `scaled/`, with two more poses of the horse itself; six built-in animals; faces, endocasts and
+teeth of `anatomy/`, judged on the first three pairs each of `pairs.json` (a specimen that is the source of one pair
+and, renumbered, the target of another is there twice). Errors x100 by the protocol of the field, of 50 points at most.
+*direct* is the map of each pair alone. *composed* goes through the atlas of one template without neighbours, which is
+composition; *atlas* is `gmds atlas` as it stands; *voted* is it with `--templates 6`, all specimens of a set of six
+being templates. The cycle is how far from home points of one specimen come through two others on registered meshes,
+over the root of its area. Where all specimens have the same points, generalisation and specificity of a model of the
+true points, and of the points where the atlas carries those of the first specimen. Modest on purpose: minutes of CPU a
+set. MAPS keeps maps from run to run.
 Writes results/atlas.csv and results/atlas.md.
 """
 
@@ -20,7 +20,6 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -34,23 +33,21 @@ from benchmarks.places import RESULTS
 from geodesics import Mesh, SurfacePoints, read_mesh
 from geodesics.arrays import Floats, Integers
 from gmds.batch import local_client
-from gmds.batch.collection import Shape
-from gmds.batch.store import Store
 from gmds.evaluation import geodesic_error
 from gmds.files.table import write_table
-from gmds.matching.settling import CommonPoints, settled_places
 from gmds.morphometrics.quality import generalisation, specificity
 from gmds.morphometrics.shape_model import ShapeModel
+from gmds.shapes import Figure, quadruped, truth
 
 # other shapes than those on which the vote was tried (000, 011, 022, 033, 044, 005)
 PEOPLE = ("006", "001", "012", "023", "034", "045")
 JUDGED = 50  # points of a pair
-ATLASES: dict[str, tuple[str, dict[str, int]]] = {
-    "composed": ("one", {"neighbours": 0}),
-    "neighbours": ("one", {}),
-    "voted": ("three", {"templates": 3}),
+ATLASES: dict[str, dict[str, Any]] = {
+    "composed": {"neighbours": 0},
+    "atlas": {},
+    "voted": {"templates": 6},
 }
-"""Of each kind of atlas the folder, which those with the same maps share, and the options."""
+"""Options of each kind of atlas."""
 
 
 class Pair(NamedTuple):
@@ -63,11 +60,15 @@ class Pair(NamedTuple):
 
 
 class Set(NamedTuple):
-    """Meshes by name, pairs with truth, and of all specimens the same points, where they are known."""
+    """Meshes by name, pairs with truth, and where the same points are on all specimens, where that is known.
+
+    `options` of `match` and of the atlas: which sides are mirrored is to be found out where the data do not say it.
+    """
 
     meshes: dict[str, Mesh]
     pairs: list[Pair]
-    points: dict[str, Integers]
+    points: dict[str, Floats]
+    options: tuple[dict[str, Any], dict[str, Any]] = ({}, {})
 
 
 def faust() -> Set:
@@ -78,22 +79,41 @@ def faust() -> Set:
     some = np.random.default_rng(0).choice(len(points[PEOPLE[0]]), JUDGED, replace=False)
     couples = [(PEOPLE[i], PEOPLE[(i + step) % 6]) for step, count in ((1, 5), (2, 3)) for i in range(count)]
     pairs = [Pair(a, b, points[a][some], points[b][some]) for a, b in couples]
-    return Set(meshes, pairs, points)
+    return Set(meshes, pairs, {name: meshes[name].vertices[points[name]] for name in PEOPLE})
 
 
-def anatomy(group: str) -> Set:
-    """The specimens of a group of `anatomy/pairs.json`."""
+def animals() -> Set:
+    """Six built-in animals in four poses, whose ears, legs and heads have other sizes."""
+    rng, figures = np.random.default_rng(5), dict[str, Figure]()
+    for i in range(6):
+        ear, leg, head = np.exp(0.2 * rng.standard_normal(3)).tolist()
+        pose = ("stand", "walk", "graze", "turn")[i % 4]
+        figures[f"animal{i}"] = quadruped(
+            pose, n_vertices=1500 + 10 * i, seed=i, ear_scale=ear, leg_scale=leg, head_scale=head
+        )
+    first, *_ = names = list(figures)
+    some = rng.choice(figures[first].n_vertices, 500, replace=False)
+    places = {name: truth(figures[first], figures[name]).positions[some] for name in names}
+    nearest = {name: SurfacePoints.closest(figures[name], places[name]).nearest_vertices() for name in names}
+    few = rng.choice(len(some), JUDGED, replace=False)
+    pairs = [Pair(a, b, nearest[a][few], nearest[b][few]) for a in names for b in names if a < b]
+    return Set(dict(figures), pairs, places)
+
+
+def anatomy(start: str) -> Set:
+    """The specimens of the first three pairs of `anatomy/pairs.json` whose names start so."""
     root = Path(os.environ["GMDS_DATA"])
-    entries = [one for one in json.loads((root / "anatomy" / "pairs.json").read_text()) if one["group"] == group]
+    entries = [e for e in json.loads((root / "anatomy" / "pairs.json").read_text()) if e["name"].startswith(start)][:3]
+    sides = any(entry["orientation"] == "any" for entry in entries)
     meshes, pairs = {}, []
     for entry in entries:
         names = [Path(entry[side]).stem.replace("__", "_") for side in ("source", "target")]
         for side, name in zip(("source", "target"), names, strict=True):
             meshes[name] = read_mesh(root / entry[side])
-        truth = np.load(root / entry["truth"])
-        some = np.random.default_rng(0).permutation(len(truth["src"]))[:JUDGED]
-        pairs.append(Pair(*names, truth["src"][some], truth["gt"][some]))
-    return Set(meshes, pairs, {})
+        known = np.load(root / entry["truth"])
+        some = np.random.default_rng(0).permutation(len(known["src"]))[:JUDGED]
+        pairs.append(Pair(names[0], names[1], known["src"][some], known["gt"][some]))
+    return Set(meshes, pairs, {}, ({"orientation": "any"}, {"mirror": "auto"}) if sides else ({}, {}))
 
 
 def horses() -> Set:
@@ -109,24 +129,29 @@ def horses() -> Set:
     same = np.array(sorted(set.intersection(*(set(one["src"].tolist()) for one in known.values()))))
     points = {name: one["gt"][[one["src"].tolist().index(i) for i in same]] for name, one in known.items()}
     some = np.random.default_rng(0).permutation(len(same))[:JUDGED]
-    pairs = [Pair(a, b, points[a][some], points[b][some]) for a in points for b in points if a < b]
+    pairs = [Pair(a, b, points[a][some], points[b][some]) for a in points for b in points if a != b]
+    for name in ("horse6", "horse15"):
+        meshes[name] = read_mesh(root / "tosca_5k" / f"{name}.off")
     return Set(meshes, pairs, {})
 
 
 SETS: dict[str, Callable[[], Set]] = {
     "FAUST": faust,
     "horses, scaled": horses,
-    "teeth": lambda: anatomy("teeth"),
-    "faces": lambda: anatomy("faces"),
-    "endocasts": lambda: anatomy("endocasts"),
+    "animals, built-in": animals,
+    "faces": lambda: anatomy("scalismo"),
+    "endocasts": lambda: anatomy("primate"),
+    "teeth": lambda: anatomy("pnas"),
+    "faces, meshmonk": lambda: anatomy("meshmonk"),
 }
 
 
-def direct(pair: Pair, meshes: dict[str, Mesh], folder: Path) -> SurfacePoints:
-    """Where a map of the pair alone sends the points."""
-    source, target, path = meshes[pair.source], meshes[pair.target], folder / f"{pair.source}--{pair.target}.npz"
+def direct(pair: Pair, known: Set, maps: Path) -> SurfacePoints:
+    """Where the map of the pair alone sends the points: one that an atlas is made of, if it is there."""
+    source, target = known.meshes[pair.source], known.meshes[pair.target]
+    path = maps / f"{pair.source}__{pair.target}.npz"
     if not path.exists():
-        gmds.match(source, target).save(path)
+        gmds.match(source, target, **known.options[0]).save(path)
     return gmds.Correspondence.load(path, source, target).points[pair.here]
 
 
@@ -147,9 +172,9 @@ def cycle(made: gmds.Atlas) -> float:
 def models(made: gmds.Atlas, known: Set) -> dict[str, float]:
     """Generalisation and specificity, with two components, of the true points and of those that the atlas carries."""
     first = made.names[0]
-    start = known.meshes[first].vertices[known.points[first]]
+    start = known.points[first]
     configurations: dict[str, Floats] = {
-        "true": np.stack([known.meshes[name].vertices[known.points[name]] for name in made.names]),
+        "true": np.stack([known.points[name] for name in made.names]),
         "atlas": np.stack([made.carry(start, first, name) for name in made.names]),
     }
     found = {}
@@ -160,49 +185,26 @@ def models(made: gmds.Atlas, known: Set) -> dict[str, float]:
     return found
 
 
-class Settled:
-    """Pairs registered once more, from where an atlas has them."""
-
-    def __init__(self, made: gmds.Atlas, meshes: dict[str, Mesh], folder: Path) -> None:
-        self.made, self.meshes, self.seconds = made, meshes, list[float]()
-        folder.mkdir(exist_ok=True)
-        self.store = Store(folder)
-        self.records = {name: self.store.keep(Shape(name, mesh)) for name, mesh in meshes.items()}
-
-    def __call__(self, pair: Pair) -> SurfacePoints:
-        """Where the points of a pair go."""
-        here, there = (self.made.positions[self.made.index(name)] for name in (pair.source, pair.target))
-        surfaces = [self.store.surface(self.records[name]) for name in (pair.source, pair.target)]
-        started = time.process_time()
-        places = settled_places(*surfaces, CommonPoints(here, there, self.made.faces))
-        self.seconds.append(time.process_time() - started)
-        start = self.meshes[pair.source].vertices[pair.here]
-        on = SurfacePoints.closest(Mesh(here, self.made.faces), start)
-        ends = (on.barycentric[:, :, None] * places[self.made.faces[on.face]]).sum(axis=1)
-        return SurfacePoints.closest(self.meshes[pair.target], ends)
-
-
 def measured(name: str, maps: Path, workers: int) -> tuple[list[dict[str, Any]], dict[str, float]]:
     """A row for every judged pair, and what is known of the atlases of the set."""
     known, folder = SETS[name](), maps / name
     folder.mkdir(parents=True, exist_ok=True)
     made = {}
     with local_client(workers) as client:
-        for kind, (place, options) in ATLASES.items():
-            made[kind] = gmds.atlas(known.meshes, folder / place, client=client, **options)
-            print(name, kind, made[kind].templates, dict(made[kind].failures), flush=True)
-    settled = Settled(made["neighbours"], known.meshes, folder / "shapes")
+        for kind, options in ATLASES.items():
+            made[kind] = gmds.atlas(known.meshes, folder / "maps", client=client, **options, **known.options[1])
+            print(name, kind, made[kind].templates, made[kind].mirrored.sum(), dict(made[kind].failures), flush=True)
     rows = []
     for pair in known.pairs:
-        errors = {"direct": direct(pair, known.meshes, folder)}
+        errors = {"direct": direct(pair, known, folder / "maps" / "maps" / "pairs")}
         errors |= {kind: through(one, pair, known.meshes) for kind, one in made.items()}
-        errors["settled"] = settled(pair)
-        truth = SurfacePoints.at_vertices(known.meshes[pair.target], pair.there)
-        row = {kind: 100 * float(geodesic_error(points, truth).mean()) for kind, points in errors.items()}
+        right = SurfacePoints.at_vertices(known.meshes[pair.target], pair.there)
+        row = {kind: 100 * float(geodesic_error(points, right).mean()) for kind, points in errors.items()}
         rows.append({"set": name, "pair": f"{pair.source}-{pair.target}", **row})
         print(rows[-1], flush=True)
-    facts = {"cycle": cycle(made["neighbours"]), "seconds": float(np.mean(settled.seconds))}
-    return rows, facts | (models(made["neighbours"], known) if known.points else {})
+    return rows, {"specimens": len(made["voted"].names), "cycle": cycle(made["voted"])} | (
+        models(made["voted"], known) if known.points else {}
+    )
 
 
 def main() -> None:
@@ -221,16 +223,14 @@ def main() -> None:
 
 def page(rows: list[dict[str, Any]], facts: dict[str, dict[str, float]]) -> str:
     """Means of each set, and what is known of the models."""
-    kinds = ("direct", *ATLASES, "settled")
+    kinds = ("direct", *ATLASES)
     lines = []
     for name, known in facts.items():
         some = [row for row in rows if row["set"] == name]
         means = [float(np.mean([row[kind] for row in some])) for kind in kinds]
-        lines.append(
-            [name, len(some), *(f"{mean:.2f}" for mean in means), f"{known['seconds']:.2f}", f"{known['cycle']:.1e}"]
-        )
+        lines.append([name, known["specimens"], len(some), *(f"{mean:.2f}" for mean in means), f"{known['cycle']:.1e}"])
     told = f"`python -m benchmarks.study.atlas MAPS` at {code_version()}; see the script for the protocol."
-    text = ["# Atlas", "", told, "", *table(["set", "pairs", *kinds, "seconds", "cycle"], lines)]
+    text = ["# Atlas", "", told, "", *table(["set", "specimens", "pairs", *kinds, "cycle"], lines)]
     pairs = [(name, known) for name, known in facts.items() if "generalisation_true" in known]
     head = ["set", "generalisation, true points", "atlas", "specificity, true points", "atlas"]
     keys = ("generalisation_true", "generalisation_atlas", "specificity_true", "specificity_atlas")

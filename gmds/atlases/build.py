@@ -16,9 +16,9 @@ from gmds.batch.workers import local_client
 from gmds.errors import NoAtlas
 from gmds.suggestions import did_you_mean
 
-# A registration takes about a sixth of the time of a match. On FAUST pairs through an atlas of one template are off by
-# 6 % less with 4 than with none (`benchmarks/results/atlas.md`).
-NEIGHBOURS = 4
+# With one template. A registration takes about a third of the time of a match. On FAUST (`benchmarks/results/notes.md`,
+# "Atlas") pairs are off by 4 % less with 1 than with none and by 5 % with 4; of maps of six templates it takes away.
+NEIGHBOURS = 1
 
 
 def atlas(
@@ -28,7 +28,7 @@ def atlas(
     template: str | None = None,
     templates: int = 1,
     rounds: int = 1,
-    neighbours: int = NEIGHBOURS,
+    neighbours: int | None = None,
     mirror: Sequence[str] | str = (),
     progress: Progress | None = None,
     **matching: Any,
@@ -38,8 +38,8 @@ def atlas(
     The specimen to which the others are nearest (the medoid by `least_distortion`) is the template, and is matched to
     each of them by `match_collection`. With several templates each is matched to all; what they say, composed through
     the first, is put to the vote, by confidence. Then each specimen is registered directly from some others, starting
-    from there, and what these say is put to the vote as well; how far they disagree is the `spread`. In later rounds
-    the mean shape is the template.
+    from there. All these maps are taken both ways until they agree: of what they say of a point of a specimen, the
+    middle is taken; how far they disagree is the `spread`. In later rounds the mean shape is the template.
 
     Parameters
     ----------
@@ -54,8 +54,8 @@ def atlas(
     rounds : int
         From the second on, the mean shape is matched to all specimens; rounds end when it moves no more.
     neighbours : int
-        From how many others each specimen is registered; fewer than 3 leave it at the maps of the templates, and so
-        do ``mirror="auto"``, a `distance`, and a collection of fewer than 5.
+        From how many others each specimen is registered: 1 unless given where there is one template, else none. None
+        with a `distance`, or fewer than 5 specimens.
     mirror : sequence of str, str or "auto"
         Specimens of the other side, which are mirrored; "auto" finds out which.
     progress : callable, optional
@@ -91,6 +91,8 @@ def atlas(
     ...     print(made.names, made.positions.shape)
     ('standing', 'walking') (2, 200, 3)
     """
+    if neighbours is None:
+        neighbours = NEIGHBOURS if templates == 1 else 0
     if templates < 1 or rounds < 1 or neighbours < 0:
         raise BadArgument("there must be one template and one round at least, and no fewer than 0 neighbours")
     with contextlib.ExitStack() as stack:

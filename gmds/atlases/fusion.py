@@ -16,6 +16,8 @@ STEPS = 20  # of the geometric median, a bound
 NEAR = 1e-3  # root areas: nearer than this two places are one
 LEAST_SURE, MOST_SURE = 0.02, 0.98  # bounds of a confidence, so that no account is worth nothing, or all
 
+SURE = -np.log1p(-MOST_SURE)  # trust in what is known
+
 
 class Said(NamedTuple):
     """Where the vertices of the template are by one account (n, 3), which there are, and how far to trust it (n,)."""
@@ -39,10 +41,11 @@ class Fused(NamedTuple):
     spread: Floats
     trust: Floats
 
-    @property
-    def said(self) -> Said:
-        """It, as one account among others."""
-        return Said(self.places, self.valid, self.trust)
+    @classmethod
+    def as_it_is(cls, mesh: Mesh) -> Fused:
+        """Where the points of a template are on itself."""
+        there = np.isin(np.arange(mesh.n_vertices), mesh.faces)
+        return cls(mesh.vertices, there, np.full(mesh.n_vertices, np.nan), np.full(mesh.n_vertices, SURE))
 
 
 def fused(said: Sequence[Said], target: Mesh) -> Fused:

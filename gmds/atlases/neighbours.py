@@ -1,35 +1,32 @@
 """Specimens registered to one another, from where a first atlas has them: what the group knows and no template says.
 
 Maps through a template carry its errors. Each specimen is registered again, directly, from some of the others
-(`gmds.matching.settling`), which is cheap where the atlas is nearly right; what they all say of it is brought together.
+(`gmds.matching.settling`), which is cheap where the atlas is nearly right; what they all say is brought together by
+`gmds.atlases.links`.
 """
 
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from geodesics import Mesh
-from geodesics.arrays import Floats
+from geodesics.arrays import Bools, Floats, Integers
 from geodesics.io import atomic_write
-from gmds.atlases.fusion import Fused, Said, fused
+from gmds.atlases.fusion import Fused
+from gmds.atlases.links import Link
 from gmds.batch.records import ShapeRecord
 from gmds.batch.store import Store
-from gmds.batch.workers import outcomes
 from gmds.files.npz import read_npz
 from gmds.matching.settling import CommonPoints, settled_places
 from gmds.provenance import versions
 
-Progress = Callable[[str, float], None]
-
-# Neighbours that have a say. Four were measured on FAUST (`benchmarks/results/atlas.md`); one or two, in collections of
-# a few small meshes, made an atlas no better.
-FEWEST = 3
+# Specimens besides the template, for them to be registered from each other: of three coarse animals growth is blurred
+# by it (tests/gmds/atlases/test_atlas.py); on FAUST there were five.
+FEWEST = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,34 +66,32 @@ def kept(job: Job) -> Floats | None:
         return None
 
 
+def linked(job: Job, source: Fused, target: Fused) -> Link | None:
+    """The link that a job made, its two specimens being where the job had them; None when it could not be made.
+
+    It is trusted as far as the places from which it started.
+    """
+    places = kept(job)
+    if places is None:
+        return None
+    valid, trust = source.valid & target.valid, np.minimum(source.trust, target.trust)
+    return Link(job.common.here, places, job.common.faces, valid, trust)
+
+
+def common_points(source: Fused, target: Fused, faces: Integers) -> CommonPoints:
+    """The points that two specimens have in common, with the faces of which both have all corners."""
+    there: Bools = source.valid & target.valid
+    return CommonPoints(source.places, target.places, faces if there.all() else faces[there[faces].all(axis=1)])
+
+
 def neighbours_of(names: Sequence[str], count: int, template: str) -> list[tuple[str, str]]:
     """Pairs (source, target): each specimen but the template from `count` others, evenly spread over the names.
 
-    None where there would be fewer than `FEWEST` for each.
+    None where there would be fewer than `FEWEST` of them.
     """
     others = [name for name in names if name != template]
     count = min(count, len(others) - 1)
-    if count < FEWEST:
+    if count < 1 or len(others) < FEWEST:
         return []
-    steps = np.linspace(1, len(others) - 1, count).round().astype(int).tolist()
+    steps = [1 + i * (len(others) - 1) // count for i in range(count)]
     return [(others[(i + step) % len(others)], name) for i, name in enumerate(others) for step in steps]
-
-
-def with_neighbours(
-    rows: Mapping[str, Fused], jobs: Iterable[Job], mesh: Callable[[str], Mesh], client: Any, report: Progress
-) -> dict[str, Fused]:
-    """What is said of each specimen, together with what its neighbours say; the others stay as they are.
-
-    Which points there are, is what the maps of the templates say. A pair that cannot be registered has no say.
-    """
-    jobs = list(jobs)
-    for number, _ in enumerate(outcomes(client, settle, jobs), start=1):
-        report(f"{number} of {len(jobs)} specimens registered to others", number / len(jobs))
-    said: dict[str, list[Said]] = {}
-    for job in jobs:
-        source, target, places = rows[job.source.name], rows[job.target.name], kept(job)
-        if places is not None:
-            account = Said(places, source.valid & target.valid, source.trust)
-            said.setdefault(job.target.name, [target.said]).append(account)
-    found = {name: fused(one, mesh(name))._replace(valid=rows[name].valid) for name, one in said.items()}
-    return {name: found.get(name, row) for name, row in rows.items()}

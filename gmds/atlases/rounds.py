@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,18 +13,20 @@ import numpy as np
 from geodesics import Mesh
 from geodesics.arrays import Integers
 from geodesics.caching import cached_property
-from gmds.atlases.fusion import Fused, Said, fused, gap_of
-from gmds.atlases.neighbours import Job, neighbours_of, with_neighbours
+from gmds.atlases.fusion import Fused, gap_of
+from gmds.atlases.links import Link, Load, agreed
+from gmds.atlases.neighbours import Job, common_points, linked, neighbours_of, settle
 from gmds.atlases.registered import MIRROR, Atlas
-from gmds.atlases.sides import is_mirror, moved
+from gmds.atlases.sides import is_mirror, mirror_image, moved
+from gmds.atlases.template_maps import TemplateMaps
 from gmds.atlases.templates import medoids, profiles
 from gmds.batch.collection import Shape
-from gmds.batch.records import WITHOUT_MAP, Batch, Failure, PairRecord
+from gmds.batch.records import WITHOUT_MAP, Batch, Failure, PairRecord, ShapeRecord
 from gmds.batch.run import match_collection
 from gmds.batch.store import Store
-from gmds.correspondence import Correspondence
+from gmds.batch.tasks import ShapeJob, measure_shape
+from gmds.batch.workers import outcomes
 from gmds.errors import NoAtlas
-from gmds.matching.settling import CommonPoints
 from gmds.morphometrics.procrustes import superimposed
 
 Progress = Callable[[str, float], None]
@@ -45,6 +48,7 @@ class Rounds:
     neighbours: int
     client: Any
     failures: dict[str, Failure] = field(default_factory=dict)
+    sides_known: bool = False
 
     @cached_property
     def mean(self) -> str:
@@ -72,8 +76,11 @@ class Rounds:
     def _templates(self, template: str | None, count: int) -> tuple[str, ...]:
         if template is not None and count == 1:
             return (template,)
+        shapes = [Shape(name, self._origin(shape)) for name, shape in self.shapes.items()]
+        mirrored = self.matching.get("orientation") in ("reverse", "any")
+        told = lambda s, x: self.report(s, PROFILES * x)  # noqa: E731
         known, self.failures = profiles(
-            self.shapes, self.folder / "profiles", lambda s, x: self.report(s, PROFILES * x)
+            shapes, self.folder / "maps", self.folder / "profiles", mirrored, self.client, told
         )
         for name in self.failures:
             del self.shapes[name]
@@ -99,65 +106,70 @@ class Rounds:
         names = sorted([*kept, *([] if first == self.mean else [first])])
         if len(kept) < (2 if first == self.mean else 1):
             raise NoAtlas(f"no specimen can be matched with the template {first}; {_told(self.failures)}")
-        meshes = {name: self._mesh(name) for name in (*templates,)}
-        rows = {}
-        for name in names:
-            rows[name] = self._said(name, meshes.get(name) or self._mesh(name), meshes, list(done), self.folder / maps)
-        rows = self._settled(rows, meshes[first].faces, first, batch, told)
-        gap = [gap_of(self._mesh(n), row.places, meshes[first].faces, row.valid) for n, row in rows.items()]
+        given, meshes = self.mirror, {name: self._mesh(name) for name in templates}
+        maps_of = TemplateMaps(self.folder / maps, done.keys(), meshes, lambda name: self._mesh(name, given))
+        rows = {first: Fused.as_it_is(meshes[first])}
+        rows |= {name: maps_of.said(name) for name in names if name != first}
+        turned = self._turned(rows, meshes[first])
+        links = maps_of.links(turned)
+        links |= self._neighbours(rows, meshes[first].faces, first, self._records(batch, turned), told)
+        if len(templates) > 1 or len(links) > len(done):
+            rows = agreed(rows, links, first, self._mesh)
+        gap = [gap_of(self._mesh(n), rows[n].places, meshes[first].faces, rows[n].valid) for n in names]
         status = tuple("TEMPLATE" if name == first else done[first, name].status for name in names)
-        return self._atlas(names, meshes[first], list(rows.values()), gap, status)
+        return self._atlas(names, meshes[first], [rows[name] for name in names], gap, status)
 
-    def _settled(
+    def _neighbours(
         self, rows: dict[str, Fused], faces: Integers, first: str, batch: Batch, told: Progress
-    ) -> dict[str, Fused]:
-        """The rows, each specimen registered from some others as well; as they are where sides are to be found out."""
-        pairs = neighbours_of(list(rows), self.neighbours, first)
-        if not pairs or "auto" in self.mirror or self.matching.get("distance") is not None:
-            return rows
-        folder = batch.output / "settled"
-        folder.mkdir(exist_ok=True)
+    ) -> dict[tuple[str, str], Load]:
+        """Each specimen registered from some others as well: what loads that; none where sides are not known."""
+        pairs = neighbours_of([name for name in rows if name in batch.shapes], self.neighbours, first)
+        sides = self.matching.get("orientation", "preserve") == "preserve" or self.sides_known
+        if not sides or self.matching.get("distance") is not None:
+            pairs = []
+        (batch.output / "settled").mkdir(exist_ok=True)
         store = Store(batch.output / "shapes")
 
         def job(source: str, target: str) -> Job:
-            common = CommonPoints(rows[source].places, rows[target].places, faces)
-            there = rows[source].valid & rows[target].valid
-            common = replace(common, faces=faces[there[faces].all(axis=1)])
-            path = folder / f"{source}__{target}.npz"
+            common = common_points(rows[source], rows[target], faces)
+            path = batch.output / "settled" / f"{source}__{target}.npz"
             return Job(batch.shapes[source], batch.shapes[target], store, common, path)
 
-        if first in rows:  # of which nobody says anything else
-            rows[first] = rows[first]._replace(spread=np.zeros(len(rows[first].places)))
-        return with_neighbours(rows, [job(*pair) for pair in pairs], self._mesh, self.client, told)
+        for number, _ in enumerate(outcomes(self.client, settle, (job(*pair) for pair in pairs)), start=1):
+            told(f"{number} of {len(pairs)} specimens registered to others", number / len(pairs))
+        start = dict(rows)
 
-    def _said(self, name: str, mesh: Mesh, meshes: dict[str, Mesh], done: list[tuple[str, str]], folder: Path) -> Fused:
-        """Where the first template is on a specimen, by all templates."""
-        first, *others = meshes
+        def link(source: str, target: str) -> Link | None:
+            return linked(job(source, target), start[source], start[target])
 
-        def load(source: str, target: str) -> Correspondence:
-            path = folder / "pairs" / f"{source}__{target}.npz"
-            return Correspondence.load(path, meshes[source], meshes.get(target) or mesh)
+        return {pair: partial(link, *pair) for pair in pairs}
 
-        if name == first:
-            there = np.isin(np.arange(mesh.n_vertices), mesh.faces)
-            none = np.full(mesh.n_vertices, 0.0 if others else np.nan)
-            return Fused(mesh.vertices, there, none, np.ones(mesh.n_vertices))
-        said = [load(first, name)]
-        through = [one for one in others if one != name and (first, one) in done and (one, name) in done]
-        said += [load(first, one).compose(load(one, name)) for one in through]
-        return fused([Said.by(one) for one in said], mesh)
+    def _turned(self, rows: dict[str, Fused], template: Mesh) -> frozenset[str]:
+        """Specimens that turn out to be of the other side; from now on they are mirrored, and so are their rows."""
+        if "auto" not in self.mirror:
+            return frozenset()
+        found = frozenset(n for n, row in rows.items() if is_mirror(template.vertices, row.places, row.valid))
+        for name in found:
+            rows[name] = rows[name]._replace(places=rows[name].places * MIRROR)
+        self.mirror, self.sides_known = found, True
+        return found
+
+    def _records(self, batch: Batch, turned: frozenset[str]) -> Batch:
+        """What was measured, with the mirror images of turned specimens in their place."""
+        store = Store(batch.output / "shapes")
+        jobs = (ShapeJob(Shape(name, self._mesh(name)), store) for name in sorted(turned))
+        new = {job.shape.name: found for job, found in outcomes(self.client, measure_shape, jobs)}
+        known = {name: one for name, one in {**batch.shapes, **new}.items() if isinstance(one, ShapeRecord)}
+        return replace(batch, shapes={name: one for name, one in known.items() if one.failure is None})
 
     def _atlas(self, names: list[str], template: Mesh, rows: list[Fused], gap: list[float], status: Any) -> Atlas:
         places, valid = np.stack([row.places for row in rows]), np.stack([row.valid for row in rows])
         missing = ~valid.any(axis=0)
         valid = valid | missing  # what nobody has is where the maps say
         mirrored = np.array([name in self.mirror for name in names])
-        if "auto" in self.mirror:
-            mirrored = np.array([is_mirror(template.vertices, p, v) for p, v in zip(places, valid, strict=True)])
-        turned = np.where((mirrored & ("auto" in self.mirror))[:, None, None], places * MIRROR, places)
-        laid = superimposed(turned, valid)
+        laid = superimposed(places, valid)
         filled = np.stack([move.inverse(laid.mean) for move in laid.moves])
-        places = np.where(valid[:, :, None], turned, filled)
+        places = np.where(valid[:, :, None], places, filled)
         places = np.where(mirrored[:, None, None], places * MIRROR, places)  # back to where the specimen lies
         spread = np.stack([row.spread for row in rows])
         return Atlas(tuple(names), template.faces, places, valid, mirrored, spread, np.array(gap), status, ())
@@ -165,9 +177,9 @@ class Rounds:
     def _origin(self, shape: Shape) -> Any:
         return self._mesh(shape.name) if shape.name in self.mirror else shape.origin
 
-    def _mesh(self, name: str) -> Mesh:
+    def _mesh(self, name: str, mirror: frozenset[str] | None = None) -> Mesh:
         mesh = self.shapes[name].mesh()
-        return Mesh(mesh.vertices * MIRROR, mesh.faces[:, [0, 2, 1]]) if name in self.mirror else mesh
+        return mirror_image(mesh) if name in (self.mirror if mirror is None else mirror) else mesh
 
 
 def _culprit(pair: PairRecord) -> str:

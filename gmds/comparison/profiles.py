@@ -69,7 +69,12 @@ def distance_profile(mesh: Mesh | Surface, metrics: Sequence[Callable[[Mesh], Me
     >>> gmds.distance_profile(animal).ndim
     3
     """
-    return np.stack([_quantiles(normalised_distances(view, equal_area_samples(view))) for view in views(mesh, metrics)])
+    return profile_of_views(views(mesh, metrics))
+
+
+def profile_of_views(seen: Sequence[View]) -> Floats:
+    """The profile of a surface in these metrics."""
+    return np.stack([_quantiles(normalised_distances(view, equal_area_samples(view))) for view in seen])
 
 
 def least_distortion(one: Floats, other: Floats) -> float:

@@ -37,10 +37,8 @@ PATH = click.Path(path_type=Path)
 )
 @click.option(
     "--neighbours",
-    default=4,
-    show_default=True,
     type=click.IntRange(min=0),
-    help="From how many others each is registered too.",
+    help="From how many others each is registered too.  [default: 1 with one template, else 0]",
 )
 @click.option(
     "--mirror", metavar="NAME|auto", multiple=True, help="A specimen of the other side; or find out which are."
@@ -56,9 +54,10 @@ def command(folder: Path, output: Path, as_json: bool, **options: Any) -> None:
       gmds atlas meshes -o atlas --workers 1
       gmds atlas meshes -o voted --templates 2 --workers 1
 
-    The specimen to which all others are nearest is the template and is matched to each; then each is registered from a
-    few others as well. With --templates each of several is matched to all. The middle of what all say is taken, and how
-    far they disagree is the spread, an error bar. With --rounds the mean shape is matched to all in turn.
+    The specimen to which all others are nearest is the template and is matched to each; then each is registered from
+    another one as well. With --templates each of several is matched to all. All these maps are taken both ways until
+    they agree: the middle of what they say is taken, and how far they disagree is the spread, an error bar. With
+    --rounds the mean shape is matched to all in turn.
 
     \b
     The output folder holds
