@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
 from geodesics import Mesh
+from geodesics.arrays import Floats
 from gmds.files.table import write_table
 from gmds.morphometrics.group_tests import PointTests, ShapeTest
 from gmds.morphometrics.hotelling import HotellingTest
@@ -45,3 +46,9 @@ def write_tests(tests: Tests, points: PointTests | None, mean: Mesh, folder: Pat
     write_values(
         folder / "points.png", shown, signed=True, label="log of the change of length", pixels=460, title="Growth"
     )
+
+
+def write_growth(growth: Floats, names: Sequence[str], folder: Path) -> None:
+    """Write growth.csv, the growth (k, n) of k specimens beside the mean, a column a specimen; atomically."""
+    rows = ([i, *(x if x == x else None for x in row)] for i, row in enumerate(growth.T.tolist()))
+    write_table(folder / "growth.csv", ["vertex", *names], rows, digits=6)

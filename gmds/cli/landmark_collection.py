@@ -20,11 +20,14 @@ def landmark_collection(folder: Path, template: Path, landmarks: Path, output: P
     from geodesics import read_mesh
     from gmds.batch import local_client, quiet
     from gmds.specimens.carried import landmark_folder
+    from gmds.specimens.curves import curve_triples, with_slid_curves
     from gmds.specimens.drawing import figure_class, write_pictures
     from gmds.specimens.tables import write_tables
 
     figure_class()  # before hours of work
     marks = landmarks_of(landmarks, options["space"], read_mesh(template), template, options["specimen"])
+    if options["slide"] is not None and not curve_triples(marks.lists):
+        raise click.UsageError(f"--slide is for points of curves, and {landmarks} holds no curve")
     asked = {"orientation": options["orientation"], "rng": options["seed"]}
     quiet()
     output.mkdir(parents=True, exist_ok=True)
@@ -32,6 +35,8 @@ def landmark_collection(folder: Path, template: Path, landmarks: Path, output: P
         told = shown if sys.stderr.isatty() else _lines()
         client = local_client(options["workers"])
         found = landmark_folder(folder, template, marks, output / "maps", client=client, progress=told, **asked)
+    if options["slide"] is not None:
+        found = with_slid_curves(found, options["slide"])
     to_look_at = write_tables(output, found)
     write_pictures(output, found, upwards(options["up"], template.name))
     for name, why in to_look_at:

@@ -19,6 +19,7 @@ from gmds.files.npz import read_npz
 from gmds.morphometrics.components import ALIKE, LEAST_VARIANCE, principal_components
 from gmds.morphometrics.fitted_shape import FittedShape, Registered
 from gmds.morphometrics.model_members import MEMBERS, checked_members
+from gmds.morphometrics.parameters import Parameters
 from gmds.morphometrics.procrustes import fitted, superimposed
 
 # Variance of the place of a point, over the mean variance in the model, that is noise; set by hand.
@@ -26,7 +27,7 @@ NOISE = 0.01
 POSES = 20  # times that place and scores are found in turn, a bound
 
 
-class ShapeModel:
+class ShapeModel(Parameters):
     """Principal components of shape, with the conventions of scikit-learn.
 
     Parameters
@@ -61,6 +62,8 @@ class ShapeModel:
     (5, 2)
     """
 
+    _parameters = ("n_components", "scale")
+
     def __init__(self, n_components: int | None = None, *, scale: bool = True) -> None:
         self.n_components, self.scale = n_components, scale
         self.faces_: Integers = np.zeros((0, 3), dtype=np.int64)
@@ -74,7 +77,7 @@ class ShapeModel:
         model.faces_, model.names_ = atlas.faces, tuple(atlas.names)
         return model
 
-    def fit(self, X: Any, y: None = None, *, valid: ArrayLike | None = None) -> Any:
+    def fit(self, X: Any, y: Any = None, *, valid: ArrayLike | None = None) -> Any:
         """The model of configurations X (k, n, 3) or (k, 3 n); of a mesh, what `fit_mesh` gives.
 
         Raises `BadShape` (E108) for another shape, `BadArgument` (E604) for fewer than 2 shapes, or all the same.
@@ -116,7 +119,7 @@ class ShapeModel:
         there: Bools = np.asarray(np.isfinite(x).all(axis=2) if valid is None else valid, dtype=np.bool_)
         return np.stack([self._scores(np.nan_to_num(one), mask)[0] for one, mask in zip(x, there, strict=True)])
 
-    def fit_transform(self, X: Any, y: None = None, *, valid: ArrayLike | None = None) -> Floats:
+    def fit_transform(self, X: Any, y: Any = None, *, valid: ArrayLike | None = None) -> Floats:
         """`fit`, then the scores (k, c) of the same configurations."""
         self.fit(X, valid=valid)
         return self.scores_

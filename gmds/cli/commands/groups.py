@@ -40,11 +40,12 @@ def command(
                   Hotelling's T squared of so many principal components, its p by permutation
       points.csv  a row a vertex: slope of growth (for two groups, how much longer it is in the second, as a
                   logarithm), its 95 % limits, p, and q, the rate of false discoveries
+      growth.csv  growth itself: a row a vertex, a column a specimen; nothing where a specimen has no such point
       points.png  the slope, and where q is below 0.05, on the mean shape
     """
     import numpy as np
 
-    from gmds.atlases.groups_output import write_tests
+    from gmds.atlases.groups_output import write_growth, write_tests
     from gmds.atlases.registered import Atlas
     from gmds.morphometrics.group_tests import design, point_tests, shape_test
     from gmds.morphometrics.hotelling import hotelling_test
@@ -63,6 +64,7 @@ def command(
     tests = {name: (shape_test(x, columns, **wanted), hotelling_test(x, columns, **wanted)) for name, x in told.items()}
     points = point_tests(growth, columns[:, 0]) if columns.shape[1] == 1 else None
     write_tests(tests, points, atlas.mean, output)
+    write_growth(growth, atlas.names, output)
     found = {
         name: {"r_squared": one.r_squared, "f": one.f, "p": one.p, "t_squared": t.t_squared, "p_t_squared": t.p}
         for name, (one, t) in tests.items()

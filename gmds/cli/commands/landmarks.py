@@ -40,6 +40,7 @@ class FileOrFolder(OutputFile):
 @click.option("--template", type=FILE, help="The mesh that has landmarks, when SOURCE is a folder of specimens.")
 @click.option("--landmarks", "template_landmarks", type=FILE, help="The landmarks of the template.")
 @click.option("--workers", type=click.IntRange(min=1), help="Processes for a folder.  [default: one a processor]")
+@click.option("--slide", type=click.Choice(["bending", "procrustes"]), help="Slide points of curves, in a folder.")
 @up_option
 @click.option("--map", "map_file", type=FILE, help="A map from SOURCE to TARGET; without it they are matched.")
 @click.option("--known", type=FILE, help="Landmarks of TARGET that are known, to say how far off each is.")
@@ -87,6 +88,8 @@ def command(source: Path, landmarks: Path | None, target: Path | None, output: P
       to_look_at.csv                     who needs a look, and why
       sheet.png, pictures/               all specimens with their landmarks; doubtful ones are red
       maps/                              the maps, as `gmds batch` writes them: what is there is not made again
+    With --slide the points of curves (.mrk.json) are semilandmarks: they slide along their curve, on the surface, until
+    the bending energy or the Procrustes distance to the mean is least; the ends of an open curve stay.
     The template is the first in every table. A specimen that cannot be used is named and left out; the exit code is 3.
     """
     given, template, truth = (options.pop(name) for name in ("template_landmarks", "template", "known"))
@@ -96,6 +99,8 @@ def command(source: Path, landmarks: Path | None, target: Path | None, output: P
         from gmds.cli.landmark_collection import landmark_collection
 
         return landmark_collection(source, template, given, output, **options)
+    if options.pop("slide") is not None:
+        raise click.UsageError("--slide takes a folder of specimens, --template and --landmarks")
     if landmarks is None or target is None:
         raise click.UsageError("give SOURCE, LANDMARKS and TARGET; or a folder, --template and --landmarks")
     _one(source, landmarks, target, output, {**options, "truth": truth})

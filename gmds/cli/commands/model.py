@@ -37,12 +37,12 @@ def command(atlas_file: Path, output: Path, components: int | None, keep_size: b
     The output folder holds
       model.npz           mean, components, explained variances, scores, centroid sizes, for numpy and ShapeModel.load
       mean.ply            the mean shape; mode1-minus.ply, mode1-plus.ply, ...: 2 standard deviations either way
-      modes.vtp           the mean with what each component moves, for ParaView
+      mean.vtp, ...       the same for ParaView
       scores.csv          a row for every specimen: centroid size, scores
       components.csv      variance of each component, its share, that of a broken stick, and compactness, generalisation
                           (leaving one out) and specificity of a model with so many
       modes.png           the components, coloured by how far points move outward or inward
-      model.html          a page with sliders for the components, and specimens as points of a plot
+      model.html          a page with sliders for the components; specimens are points of a plot, and pictures
     """
     from gmds.atlases.model_output import write_model
     from gmds.atlases.registered import Atlas

@@ -198,6 +198,8 @@ def test_groups_asymmetry_and_points_on_the_command_line(
     assert json.loads(groups.stdout)["growth"]["r_squared"] > 0.8
     with (tmp_path / "g" / "points.csv").open() as stream:
         slope = np.array([float(row["slope"] or "nan") for row in csv.DictReader(stream)])
+    with (tmp_path / "g" / "growth.csv").open() as stream:
+        assert stream.readline() == "vertex,a,b,c\n" and len(stream.readlines()) == len(slope)
     template = animals()[json.loads(made[1].stdout)["template"]]
     assert 0.6 < beside_trunk(slope, template) < 1.6  # the logarithm of length grows by about 1 a unit of scale
     side = run(client, monkeypatch, "asymmetry", atlas, "-o", tmp_path / "s", "--json")
@@ -210,5 +212,14 @@ def test_groups_asymmetry_and_points_on_the_command_line(
     }
     points = run(client, monkeypatch, "pseudolandmarks", atlas, "--count", 12, "--symmetric", "-o", tmp_path / "p.csv")
     assert points.exit_code == 0 and "L1" in (tmp_path / "p.csv").read_text()
+    slid = run(
+        client, monkeypatch, "pseudolandmarks", atlas, "--count", 9, "--slide", "bending", "-o", tmp_path / "q.csv"
+    )
+    assert slid.exit_code == 0, slid.output
+    with (tmp_path / "q.csv").open() as stream:
+        rows = [row for row in csv.DictReader(stream) if row["specimen"] == "c"]
+    places = np.array([[float(row[axis]) for axis in "xyz"] for row in rows])
+    on = SurfacePoints.closest(Atlas.load(atlas).registered[2], places).positions
+    assert len(rows) == 9 and np.abs(on - places).max() < 1e-9
     wrong = run(client, monkeypatch, "groups", atlas, "--table", tmp_path / "t.csv", "--column", "arms", "-o", tmp_path)
     assert wrong.exit_code == 1 and "E235" in wrong.stderr

@@ -90,3 +90,22 @@ def test_one_shape_is_no_model() -> None:
         ShapeModel().fit(varying()[:1])
     with pytest.raises(BadArgument, match="no faces"):
         ShapeModel().fit(varying()).reconstruct([0.0])
+
+
+def test_it_is_a_step_of_a_pipeline_of_scikit_learn() -> None:
+    base = pytest.importorskip("sklearn.base", reason="scikit-learn is not installed")
+    from sklearn.linear_model import LinearRegression
+    from sklearn.model_selection import GridSearchCV
+    from sklearn.pipeline import make_pipeline
+
+    x = varying().reshape(12, -1)
+    again = base.clone(ShapeModel(2, scale=False))
+    assert repr(again) == "ShapeModel(n_components=2, scale=False)" and again.get_params() == {
+        "n_components": 2,
+        "scale": False,
+    }
+    steps = make_pipeline(ShapeModel(), LinearRegression())
+    found = GridSearchCV(steps, {"shapemodel__n_components": [1, 2]}, cv=3).fit(x, SCORES.sum(axis=1))
+    assert found.best_params_ == {"shapemodel__n_components": 2} and found.best_score_ > 0.9
+    with pytest.raises(BadArgument, match="no parameter 'n_component'; did you mean"):
+        again.set_params(n_component=1)
