@@ -108,7 +108,11 @@ def _compared(shapes: Floats, images: Floats, faces: Integers, there: Bools) -> 
     alike = vectors.sum(axis=0) / count[:, None]
     rest = np.where(there[:, :, None], vectors - alike, 0.0)
     parts = np.array(
-        [((symmetric - laid.mean) ** 2).sum(), float((there[:, :, None] * alike**2).sum()), float((rest**2).sum())]
+        [
+            ((symmetric - symmetric.mean(axis=0)) ** 2).sum(),
+            float((there[:, :, None] * alike**2).sum()),
+            float((rest**2).sum()),
+        ]
     )
     shares = parts / (parts.sum() or 1.0)
     return Asymmetry(vectors, signed, directional, fluctuating, mean, tuple(shares.tolist()), there)

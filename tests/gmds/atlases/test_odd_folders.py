@@ -1,0 +1,96 @@
+"""Folders that are not what one hopes for: two meshes, twins, other units; every command says what is the matter."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner, Result
+
+import gmds.batch
+from geodesics import Mesh, write_mesh
+from gmds.atlases.registered import Atlas
+from gmds.cli import main
+from gmds.shapes import quadruped
+
+pytest.importorskip("distributed", reason="the extra `batch` is not installed")
+
+N = 150  # vertices: a match takes a second
+
+
+@pytest.fixture(scope="module")
+def client() -> Iterator[Any]:
+    with gmds.batch.local_client(1) as client:
+        yield client
+
+
+def run(client: Any, *args: object) -> Result:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(gmds.batch, "local_client", lambda workers: contextlib.nullcontext(client))
+        return CliRunner().invoke(main, [*map(str, args)])
+
+
+@pytest.fixture(scope="module")
+def twins(client: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The atlas of an animal and its copy."""
+    place = tmp_path_factory.mktemp("twins")
+    (place / "meshes").mkdir()
+    for name in ("one", "other"):
+        write_mesh(quadruped(n_vertices=N), place / "meshes" / f"{name}.ply")
+    done = run(client, "atlas", place / "meshes", "-o", place / "atlas", "--json")
+    assert done.exit_code == 0, done.output
+    return place
+
+
+def test_twins_are_one_shape(twins: Path) -> None:
+    made = Atlas.load(twins / "atlas" / "atlas.npz")
+    assert made.names == ("one", "other") and made.superposition.distances.max() < 1e-6
+    assert np.abs(made.growth).max() < 1e-6
+
+
+@pytest.mark.parametrize(
+    ("command", "says"),
+    [
+        (("model",), "the shapes are all the same"),
+        (("groups", "--column", "size"), "2 shapes are too few"),
+    ],
+)
+def test_where_nothing_varies_there_is_nothing_to_find(
+    client: Any, twins: Path, tmp_path: Path, command: tuple[str, ...], says: str
+) -> None:
+    refused = run(client, command[0], twins / "atlas" / "atlas.npz", *command[1:], "-o", tmp_path / "out")
+    assert refused.exit_code == 1 and "E604" in refused.stderr and says in refused.stderr
+    assert not (tmp_path / "out").exists() or not list((tmp_path / "out").iterdir())
+
+
+def test_points_and_sides_of_twins(client: Any, twins: Path, tmp_path: Path) -> None:
+    atlas = twins / "atlas" / "atlas.npz"
+    points = run(client, "pseudolandmarks", atlas, "--count", 8, "-o", tmp_path / "p.tps")
+    assert points.exit_code == 0 and (tmp_path / "p.tps").read_text().count("ID=") == 2
+    sides = run(client, "asymmetry", atlas, "-o", tmp_path / "sides", "--json")
+    assert sides.exit_code == 0, sides.output
+    shares = json.loads(sides.stdout)["shares_of_variation"]
+    assert shares["fluctuating"] < 1e-3 and shares["among_specimens"] < 1e-3
+
+
+def test_specimens_in_other_units_and_places_are_the_shapes_they_are(client: Any, tmp_path: Path) -> None:
+    (tmp_path / "meshes").mkdir()
+    for i, (name, unit) in enumerate({"metres": 1.0, "millimetres": 1000.0}.items()):
+        mesh = quadruped(n_vertices=N + 10 * i, leg_scale=1 + 0.2 * i, seed=i)
+        write_mesh(Mesh(mesh.vertices * unit + 7 * unit, mesh.faces), tmp_path / "meshes" / f"{name}.ply")
+    (tmp_path / "meshes" / "broken.obj").write_text("v 0 0\nf 1 2 3\n")
+    done = run(client, "atlas", tmp_path / "meshes", "-o", tmp_path / "atlas", "--json")
+    assert done.exit_code == 3 and "left out broken: E2" in done.stderr
+    made = Atlas.load(tmp_path / "atlas" / "atlas.npz")
+    sizes = dict(zip(made.names, made.superposition.sizes, strict=True))
+    assert 900 < sizes["millimetres"] / sizes["metres"] < 1200
+    assert np.isfinite(made.growth).all() and np.abs(np.median(made.growth, axis=1)).max() < 0.1
+    model = run(client, "model", tmp_path / "atlas" / "atlas.npz", "-o", tmp_path / "model", "--json")
+    assert model.exit_code == 0 and json.loads(model.stdout)["components"] == 1
+    few = run(client, "groups", tmp_path / "atlas" / "atlas.npz", "--column", "size", "-o", tmp_path / "groups")
+    assert few.exit_code == 1 and "2 shapes are too few" in few.stderr
