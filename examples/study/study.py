@@ -1,4 +1,4 @@
-"""From a folder of meshes to a study: atlas, model, growth, groups, asymmetry; compared with what was put in.
+"""From a folder of meshes to a study: atlas, model, growth, groups, points; compared with what was put in.
 
 python study.py [-o study] [--count 12] [--vertices 1500] [--workers 2]
 """
@@ -15,7 +15,7 @@ from points import write_and_read_back
 
 import gmds
 from geodesics import write_mesh
-from gmds.atlases.groups_output import write_tests
+from gmds.atlases.groups_output import write_growth, write_tests
 from gmds.atlases.model_output import write_model
 from gmds.atlases.output import write_atlas
 from gmds.batch import local_client
@@ -47,6 +47,7 @@ def study(out: Path, count: int = 12, n_vertices: int = 1500, client: Any = None
     tests = {name: (shape_test(x, columns), hotelling_test(x, columns)) for name, x in told.items()}
     points = point_tests(growth, columns[:, 0])
     write_tests(tests, points, atlas.mean, out / "groups")
+    write_growth(growth, atlas.names, out / "groups")
     first = write_first_component(out, atlas, growth)
     return {**compared(known, atlas, growth, points, tests, first), **write_and_read_back(atlas, out)}
 
@@ -56,7 +57,8 @@ def write_first_component(out: Path, atlas: gmds.Atlas, growth: np.ndarray) -> n
     deviations = np.nan_to_num(growth)  # what a specimen lacks is as in the mean
     _, axes = principal_components(deviations - deviations.mean(axis=0), 2)
     scores = deviations @ axes[0]
-    write_values(out / "growth.png", [("first component of growth", atlas.mean, axes[0] * scores.std())], pixels=460)
+    shown = [("first component of growth", atlas.mean, axes[0] * scores.std())]
+    write_values(out / "growth.png", shown, signed=True, label="log of the change of length", pixels=460)
     return np.asarray(scores)
 
 

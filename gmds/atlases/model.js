@@ -33,7 +33,7 @@ function turned(points, [a, b]) {
 }
 
 function paint(canvas, p) {
-  const pen = canvas.getContext("2d"), scale = 0.78 * Math.min(canvas.width, canvas.height * 1.15), seen = [];
+  const pen = canvas.getContext("2d"), scale = 1.02 * Math.min(canvas.width, canvas.height * 1.25), seen = [];
   const [r, g, b] = getComputedStyle(document.documentElement).getPropertyValue("--shape").match(/[0-9a-f]{2}/gi).map((two) => parseInt(two, 16));
   for (const face of data.faces) {
     const [i, j, k] = face.map((v) => 3 * v);

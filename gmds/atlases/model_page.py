@@ -6,6 +6,7 @@ import base64
 import hashlib
 import html
 import json
+from collections.abc import Sequence
 from importlib.resources import files
 from pathlib import Path
 from string import Template
@@ -13,6 +14,7 @@ from string import Template
 import numpy as np
 
 from geodesics import SurfacePoints
+from geodesics.arrays import Floats
 from geodesics.io import atomic_write
 from geodesics.repair.decimation import decimated
 from gmds.morphometrics.shape_model import ShapeModel
@@ -31,20 +33,18 @@ def write_model_page(model: ShapeModel, path: Path, *, title: str = "Shape model
     copy = decimated(mean, FACES) or mean
     points = SurfacePoints.closest(mean, copy.vertices)
     view = broadside(mean, up, azimuth=0, elevation=0)
-    extent = float(np.ptp(mean.vertices, axis=0).max())
+    known = [points.interpolate(one) @ view.T for one in model.aligned_[:PICTURED]]
+    middle, extent = _frame(mean.vertices @ view.T, known)
     count = min(SLIDERS, model.n_components_)
     modes = [
         points.interpolate(axis.reshape(-1, 3)) * np.sqrt(variance) @ view.T / extent
         for axis, variance in zip(model.components_[:count], model.explained_variance_[:count], strict=True)
     ]
     spread = np.sqrt(model.explained_variance_[:count])
-    placed = [
-        (points.interpolate(one) - mean.vertices.mean(axis=0)) @ view.T / extent / STEP
-        for one in model.aligned_[:PICTURED]
-    ]
+    placed = [(one - middle) / extent / STEP for one in known]
     short = np.clip(np.round(placed), -(2**15) + 1, 2**15 - 1).astype("<i2")
     data = {
-        "vertices": _plain((copy.vertices - mean.vertices.mean(axis=0)) @ view.T / extent),
+        "vertices": _plain((copy.vertices @ view.T - middle) / extent),
         "faces": copy.faces.tolist(),
         "step": STEP,
         "specimens": base64.b64encode(short.tobytes()).decode(),
@@ -61,6 +61,12 @@ def write_model_page(model: ShapeModel, path: Path, *, title: str = "Shape model
     )
     with atomic_write(path) as stream:
         stream.write(page.encode("utf-8", "replace"))
+
+
+def _frame(mean: Floats, specimens: Sequence[Floats]) -> tuple[Floats, float]:
+    """The middle of the mean (n, 3), and an extent in which it and all specimens fit, turned as one likes."""
+    middle = (mean.min(axis=0) + mean.max(axis=0)) / 2
+    return middle, 2 * max(float(np.linalg.norm(one - middle, axis=1).max()) for one in (mean, *specimens))
 
 
 def _plain(points: np.ndarray) -> list[float]:

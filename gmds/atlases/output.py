@@ -52,11 +52,14 @@ def variation(atlas: Atlas) -> Floats:
 
 
 def write_atlas_picture(path: Path, atlas: Atlas, mean: Mesh, varying: Floats) -> None:
-    """The mean shape, coloured by how much each point varies, and some specimens beside it."""
+    """The mean shape, coloured by how much each point varies, and some specimens beside it; what one lacks is grey."""
     from gmds.pictures.values import write_values
 
     far = np.argsort(atlas.superposition.distances)
     some = [int(far[i]) for i in np.linspace(0, len(far) - 1, min(SPECIMENS_SHOWN, len(far))).round().astype(int)]
     shown = [("mean shape: variation", mean, varying)]
-    shown += [(atlas.names[i], Mesh(atlas.configurations[i], atlas.faces), varying) for i in some]
+    for i in some:
+        caption = atlas.names[i] + ("" if atlas.valid[i].all() else " (grey: missing)")
+        values = np.where(atlas.valid[i], varying, np.nan)
+        shown.append((caption, Mesh(atlas.configurations[i], atlas.faces), values))
     write_values(path, shown, label="standard deviation / √area", pixels=420)
