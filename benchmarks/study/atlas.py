@@ -11,7 +11,7 @@ composition; *atlas* is `gmds atlas` as it stands; *voted* is it with `--templat
 being templates. The cycle is how far from home points of one specimen come through two others on registered meshes,
 over the root of its area. Where all specimens have the same points, generalisation and specificity of a model of the
 true points, and of the points where the atlas carries those of the first specimen. Modest on purpose: minutes of CPU a
-set. MAPS keeps maps from run to run.
+set. MAPS keeps maps from run to run, and the figures of each set, so that sets can be run one by one.
 Writes results/atlas.csv and results/atlas.md.
 """
 
@@ -213,28 +213,31 @@ def main() -> None:
     parser.add_argument("--sets", default=";".join(SETS))
     parser.add_argument("--workers", type=int, default=1)
     given = parser.parse_args()
-    rows, facts = [], {}
     for name in given.sets.split(";"):
-        found, facts[name] = measured(name, given.maps, given.workers)
-        rows += found
+        rows, facts = measured(name, given.maps, given.workers)
+        told = {"version": code_version(), "rows": rows, "facts": facts}
+        (given.maps / name / "figures.json").write_text(json.dumps(told), encoding="utf-8")
+    found = {name: given.maps / name / "figures.json" for name in SETS}
+    known = {name: json.loads(path.read_text(encoding="utf-8")) for name, path in found.items() if path.exists()}
+    rows = [row for one in known.values() for row in one["rows"]]
     write_table(RESULTS / "atlas.csv", list(rows[0]), ([*row.values()] for row in rows), digits=4)
-    (RESULTS / "atlas.md").write_text(page(rows, facts), encoding="utf-8")
+    (RESULTS / "atlas.md").write_text(page(known), encoding="utf-8")
 
 
-def page(rows: list[dict[str, Any]], facts: dict[str, dict[str, float]]) -> str:
+def page(known: dict[str, dict[str, Any]]) -> str:
     """Means of each set, and what is known of the models."""
     kinds = ("direct", *ATLASES)
     lines = []
-    for name, known in facts.items():
-        some = [row for row in rows if row["set"] == name]
-        means = [float(np.mean([row[kind] for row in some])) for kind in kinds]
-        lines.append([name, known["specimens"], len(some), *(f"{mean:.2f}" for mean in means), f"{known['cycle']:.1e}"])
-    told = f"`python -m benchmarks.study.atlas MAPS` at {code_version()}; see the script for the protocol."
-    text = ["# Atlas", "", told, "", *table(["set", "specimens", "pairs", *kinds, "cycle"], lines)]
-    pairs = [(name, known) for name, known in facts.items() if "generalisation_true" in known]
+    for name, one in known.items():
+        means = [float(np.mean([row[kind] for row in one["rows"]])) for kind in kinds]
+        facts, figures = one["facts"], (f"{mean:.2f}" for mean in means)
+        lines.append([name, facts["specimens"], len(one["rows"]), *figures, f"{facts['cycle']:.1e}", one["version"]])
+    told = "`python -m benchmarks.study.atlas MAPS`; see the script for the protocol."
+    text = ["# Atlas", "", told, "", *table(["set", "specimens", "pairs", *kinds, "cycle", "version"], lines)]
+    pairs = [(name, one["facts"]) for name, one in known.items() if "generalisation_true" in one["facts"]]
     head = ["set", "generalisation, true points", "atlas", "specificity, true points", "atlas"]
     keys = ("generalisation_true", "generalisation_atlas", "specificity_true", "specificity_atlas")
-    return "\n".join([*text, *table(head, [[name, *(f"{known[key]:.5f}" for key in keys)] for name, known in pairs])])
+    return "\n".join([*text, *table(head, [[name, *(f"{facts[key]:.5f}" for key in keys)] for name, facts in pairs])])
 
 
 if __name__ == "__main__":

@@ -125,7 +125,7 @@ def test_a_second_round_uses_the_workers_there_are_and_neighbours_and_goes_on_wh
     assert len(again.changes) == 1 and again.changes[0] < 0.05 and again.names == tuple(SCALES)
     assert np.isfinite(again.spread).all() and 0 < again.spread.mean() < 0.05
     settled = sorted((tmp_path / "out" / "maps-2" / "settled").iterdir())
-    assert len(settled) == 6  # each of three from two others
+    assert len(settled) == 3  # each of three from another
     settled[0].write_bytes(settled[0].read_bytes()[:1000])  # as one that was killed leaves it on some drives
     on = gmds.atlas(folder, tmp_path / "out", mirror=["c"], rounds=2, client=client)
     assert np.array_equal(on.positions, again.positions) and np.array_equal(on.spread, again.spread)
