@@ -120,7 +120,9 @@ function choose(page) {
   at("save-view").addEventListener("click", async () => offer(await viewPicture(page), "view.png"));
   at("copy-link").addEventListener("click", async () => {
     remember(page);
-    await navigator.clipboard.writeText(location.href).catch(() => {});
+    const copied = navigator.clipboard && await navigator.clipboard.writeText(location.href).then(() => true, () => false);
+    at("copy-link").textContent = copied ? "Copied" : "It is the address of this page";
+    setTimeout(() => { at("copy-link").textContent = "Copy link to this view"; }, 2000);
   });
   document.addEventListener("keydown", (event) => { if (event.key === "Escape" && !(page.work && page.work.escaped())) page.pin(null); });
   new ResizeObserver(() => { page.scenes.forEach((scene) => scene.resized()); page.marks.draw(); }).observe(at("stage"));

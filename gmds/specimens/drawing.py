@@ -91,6 +91,12 @@ def _seen(camera: Floats, faces: Any, marks: Floats) -> Bools:
     return seen
 
 
+def leftwards(x: float, name: str, wide: float) -> bool:
+    """Whether a name stands left of its landmark, at x of a view so wide: on the outer side, if there is room."""
+    long = len(name) * LETTER + AWAY
+    return long < x < wide / 2 or (x + long > wide and long < x)
+
+
 def _save(path: Path, specimens: Sequence[tuple[Specimen, list[View]]], names: Sequence[str], columns: int = 1) -> None:
     """Specimens with both views each, so many in a row, with their names."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -112,11 +118,10 @@ def _save(path: Path, specimens: Sequence[tuple[Specimen, list[View]]], names: S
             axis.set_axis_off()
             for i in np.flatnonzero(seen).tolist():
                 ink = DOUBTFUL if one.doubtful[i] else "black"
-                x, y = spots[i]
-                leftwards = len(names[i]) * LETTER < x < wide / 2 or x + len(names[i]) * LETTER > wide
-                place = {"x": x - AWAY, "ha": "right"} if leftwards else {"x": x + AWAY}
-                size = 8 * max(share, 0.6)
-                axis.text(y=y - AWAY, s=names[i], fontsize=size, color=ink, parse_math=False, **place)
+                size, away = 8 * max(share, 0.6), -AWAY if leftwards(spots[i][0], names[i], wide) else AWAY
+                x, y = spots[i] + [away, -AWAY]
+                side = "left" if away > 0 else "right"
+                axis.text(x, y, names[i], fontsize=size, color=ink, parse_math=False, ha=side)
             left += wide / width / across
         middle = (number % across + 0.5) / across
         figure.text(middle, top - 4 / height / down, one.name, ha="center", va="top", parse_math=False)

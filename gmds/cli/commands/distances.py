@@ -14,13 +14,14 @@ from gmds.cli.output import emit, json_option, progress_bar
 
 if TYPE_CHECKING:
     from geodesics import Distance
-    from geodesics.arrays import Integers
 
 
 def _starts(_ctx: click.Context, _param: click.Parameter, given: tuple[str, ...]) -> tuple[str, ...]:
     for text in given:
-        if not re.fullmatch(r"\d{1,18}|farthest:[1-9]\d{0,8}", text, re.ASCII):
-            raise click.BadParameter(f"{text!r} is neither a vertex number (from 0) nor farthest:COUNT")
+        if not re.fullmatch(r"\d{1,18}|farthest:[1-9]\d{0,8}", text, re.ASCII) and not Path(text).suffix:
+            raise click.BadParameter(
+                f"{text!r} is neither a vertex number (from 0), farthest:COUNT nor a file of landmarks"
+            )
     return given
 
 
@@ -33,7 +34,7 @@ def _starts(_ctx: click.Context, _param: click.Parameter, given: tuple[str, ...]
     multiple=True,
     callback=_starts,
     metavar="VERTEX",
-    help="A vertex, numbered from 0, or farthest:COUNT; may be given often.",
+    help="A vertex, numbered from 0, farthest:COUNT, or a file of landmarks; may be given often.",
 )
 @metric_option
 @distance_option
@@ -47,9 +48,11 @@ def command(
 
     \b
       gmds distances dog.ply --from 0 --from 99 -o distances.npz --picture distances.png
+      gmds distances dog.ply --from dog.csv -o from-landmarks.csv
       gmds distances dog.ply --from farthest:10 --metric scale-invariant --distance diffusion -o distances.csv
 
-    farthest:COUNT stands for that many vertices, each the farthest from those before it.
+    farthest:COUNT stands for that many vertices, each the farthest from those before it; a file of landmarks for the
+    vertices nearest to them, and columns of a .csv have their names then.
     A .npz holds `distance`, a row for every vertex given, and `points`, these vertices; a .csv has a line for every
     vertex of the mesh. What cannot be reached is infinitely far. The picture shows the distance to the nearest of the
     vertices given. Metrics and diffusion time are those of
@@ -68,9 +71,13 @@ def command(
     SurfacePoints.at_vertices(surface, numbers)  # refuses a wrong number before anything is measured
     with progress_bar("distances"):
         measured = ChosenDistance(metric, distance)(surface)
-        points = np.concatenate([_vertices(text, measured) for text in starts])
+        named = [_vertices(text, measured, mesh) for text in starts]
+        points = np.array([vertex for one in named for vertex in one.values()], dtype=np.int64)
         field = measured.field(SurfacePoints.at_vertices(surface, points))
-    columns = {f"from_{vertex}": row for vertex, row in zip(points, field, strict=True)}
+    titles = [f"from_{name}" for one in named for name in one]
+    if len(set(titles)) < len(titles):  # landmarks of two files may be called the same
+        titles = [f"{title}_{vertex}" for title, vertex in zip(titles, points, strict=True)]
+    columns = dict(zip(titles, field, strict=True))
     write_field(output, {"distance": field, "points": points}, columns)
     finite = np.isfinite(field)
     result: dict[str, Any] = {
@@ -87,16 +94,22 @@ def command(
     draw(picture, shown, name=mesh, marked=points, label=unit, isolines=True)
 
 
-def _vertices(text: str, distance: Distance) -> Integers:
-    """The vertices that one --from stands for."""
-    import numpy as np
-
+def _vertices(text: str, distance: Distance, mesh_file: Path) -> dict[str, int]:
+    """The vertices that one --from stands for, by what they are called."""
     from geodesics import farthest_point_sampling
     from geodesics.errors import BadArgument
+    from gmds.cli.landmark_options import landmarks_of
+    from gmds.landmarks.checking import place_on
 
     if text.isdigit():
-        return np.array([int(text)])
+        return {text: int(text)}
+    if not text.startswith("farthest:"):
+        marks = landmarks_of(Path(text), "LPS", distance.mesh, mesh_file)
+        names = [name for name, there in zip(marks.distinct_names, marks.defined, strict=True) if there]
+        placed = place_on(marks.at[marks.defined], distance.mesh, "mesh", names)
+        return dict(zip(names, placed.nearest_vertices().tolist(), strict=True))
     try:
-        return farthest_point_sampling(distance, int(text.partition(":")[2]))
+        found = farthest_point_sampling(distance, int(text.partition(":")[2]))
     except BadArgument as error:
         raise BadArgument(f"--from {text}: {error.args[0]}") from error
+    return {str(vertex): vertex for vertex in found.tolist()}

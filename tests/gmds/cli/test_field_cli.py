@@ -62,6 +62,26 @@ def file(tmp_path: Path) -> Path:
     return tmp_path / "shape.off"
 
 
+def test_distances_from_landmarks_have_their_names(file: Path, tmp_path: Path) -> None:
+    """Positions and vertices, one without a place, and one called as a landmark of another file is."""
+    (tmp_path / "m.csv").write_text("name,x,y,z\nnose,{},{},{}\ntail,NA,NA,NA\n".format(*MESH.vertices[100]))
+    (tmp_path / "n.csv").write_text("name,vertex\nnose,3\n")
+    (tmp_path / "off.csv").write_text("name,x,y,z\nnose,90,90,90\n")
+    said = done("distances", file, "--from", tmp_path / "m.csv", "-o", tmp_path / "d.csv")
+    field = geodesics.GeodesicDistance(geodesics.embedded(geodesics.read_mesh(file))).field([100, 3])
+    with (tmp_path / "d.csv").open(newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    assert said["points"] == [100] and list(rows[0]) == ["vertex", "from_nose"]
+    assert np.array_equal([float(row["from_nose"]) for row in rows], field[0])
+    both = ("--from", tmp_path / "m.csv", "--from", tmp_path / "n.csv")
+    done("distances", file, *both, "-o", tmp_path / "d.csv")
+    with (tmp_path / "d.csv").open(newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    assert np.array_equal([float(row["from_nose_3"]) for row in rows], field[1])
+    assert "E305" in refused("distances", file, "--from", tmp_path / "off.csv", "-o", tmp_path / "e.csv")
+    assert "none.csv" in refused("distances", file, "--from", tmp_path / "none.csv", "-o", tmp_path / "e.csv")
+
+
 def test_distances_are_those_of_the_library(file: Path) -> None:
     out = file.with_suffix(".npz")
     said = done("distances", file, "--from", 3, "--from", 100, "-o", out)

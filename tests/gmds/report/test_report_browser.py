@@ -421,6 +421,8 @@ def test_a_link_brings_back_what_was_shown(running: Any, file: Path) -> None:
     page.fill("#go-vertex", "12")
     page.click("#go button")
     page.click("[data-side=top]")
+    page.click("#copy-link")
+    page.wait_for_function("() => /Copied|address/.test(at('copy-link').textContent)")
     shown = page.evaluate("stateOf(gmdsPage)")
     page.goto(f"{file.as_uri()}#{shown}")
     page.reload()

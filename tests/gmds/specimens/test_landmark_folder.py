@@ -18,7 +18,7 @@ from geodesics import Mesh, write_mesh
 from gmds.cli import main
 from gmds.landmarks.files import Landmarks, read_landmarks
 from gmds.shapes import quadruped, truth
-from gmds.specimens.drawing import _seen
+from gmds.specimens.drawing import AWAY, LETTER, _seen, leftwards
 
 TURN = Rotation.from_euler("xyz", [20, 50, -70], degrees=True).as_matrix()
 Done = tuple[Path, Path, Any, Any, Landmarks]
@@ -135,3 +135,13 @@ def test_wrong_use_is_told(tmp_path: Path) -> None:
     for args in (["a.ply"], ["a.ply", "b.csv"], ["f", "b.csv", "--template", "t.ply", "--landmarks", "l.csv"],
                  ["f", "--template", "t.ply"]):  # fmt: skip
         assert CliRunner().invoke(main, ["landmarks", *args, "-o", str(tmp_path / "out")]).exit_code == 2
+
+
+@pytest.mark.parametrize("name", ["nose", "left fore foot"])
+def test_names_stand_on_the_outer_side_and_within_the_view(name: str) -> None:
+    wide, long = 560, LETTER * len(name) + AWAY
+    for x in range(0, wide, 5):
+        left, right = (x - long, x) if leftwards(x, name, wide) else (x, x + long)
+        assert 0 <= left and right <= wide
+        outward = x < wide / 2 if x > long and x + long <= wide else None
+        assert outward is None or leftwards(x, name, wide) == outward
