@@ -25,6 +25,7 @@ REQUIRED = (
     "numba>=0.60",
     "trimesh>=4.6",
     "libigl>=2.6.1",
+    "fast-simplification>=0.1.9",
     "threadpoolctl>=3.2",
     "click>=8.2",
     "rich>=13",

@@ -12,7 +12,7 @@ from geodesics.barycentric import combination
 from geodesics.caching import memoized
 from geodesics.closest import closest_on_triangles
 from geodesics.repair.decimation import decimated
-from geodesics.threads import threads
+from geodesics.threads import side_by_side, threads
 from gmds.correspondence import Correspondence
 from gmds.landmarks.constraints import LandmarkConstraints, WeightedCorners
 from gmds.maps.point_map import Candidate
@@ -57,8 +57,8 @@ class CoarseCopies:
     @classmethod
     def of(cls, source: Surface, target: Surface) -> CoarseCopies | None:
         """The copies of two surfaces that are matched; None where there are no copies."""
-        copies = coarse(source), coarse(target)
-        return None if copies == (source, target) else cls(source, target, copies)
+        ours, theirs = side_by_side(coarse, (source, target))
+        return None if (ours, theirs) == (source, target) else cls(source, target, (ours, theirs))
 
     def landmarks(self, landmarks: LandmarkConstraints) -> LandmarkConstraints:
         """Corresponding points of the surfaces as those of their copies that are closest."""

@@ -11,7 +11,7 @@ import numpy as np
 
 from geodesics import Distance, Mesh
 from geodesics.errors import BadArgument
-from geodesics.threads import on_one_blas_thread
+from geodesics.threads import on_one_blas_thread, side_by_side
 from gmds.correspondence import Correspondence
 from gmds.errors import SampleCountError
 from gmds.landmarks.checking import place_landmarks
@@ -134,7 +134,8 @@ def match(  # noqa: PLR0913 - the signature is a promise
     if parts not in ("auto", "neither") and distance is not None:
         raise BadArgument(f"parts={parts!r} is looked for without a distance of your own; leave one of them out")
     loss = loss_of(distance, loss)
-    measured, facing = (s if isinstance(s, Surface) else measure(Mesh.from_object(s)) for s in (source, target))
+    given = side_by_side(lambda s: s if isinstance(s, Surface) else measure(Mesh.from_object(s)), (source, target))
+    measured, facing = given
     placed = None if landmarks is None else place_landmarks(landmarks, measured.given, facing.given)
     count = SAMPLES if n_samples is None else check_sample_count(n_samples, measured.original)
     report = progress or (lambda stage, fraction: None)

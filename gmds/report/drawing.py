@@ -10,7 +10,8 @@ from scipy.spatial import cKDTree
 
 from geodesics import Mesh
 from geodesics.arrays import Floats, Integers
-from geodesics.repair.decimation import clustered, decimated
+from geodesics.repair.clustering import clustered
+from geodesics.repair.decimation import decimated
 from geodesics.topology.orientation import orient_faces
 
 # how a browser turns both is in benchmarks/results/page_speed.md

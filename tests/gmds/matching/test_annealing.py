@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import itertools
 
 import numpy as np
 import pytest
@@ -42,7 +43,7 @@ def test_shells_come_ever_nearer_to_the_target() -> None:
         np.sqrt(target.areas @ ((shell.smooth - target.mesh.vertices) ** 2).sum(axis=1)) for shell in annealing().shells
     ]
     assert [shell.k for shell in annealing().shells] == list(SIZES)
-    assert all(after < before for before, after in zip(gaps, gaps[1:], strict=False))
+    assert all(after < before for before, after in itertools.pairwise(gaps))
     assert gaps[-1] < 0.02 < gaps[0]  # root areas
 
 

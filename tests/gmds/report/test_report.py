@@ -14,7 +14,7 @@ from generated_shapes import rectangle, tetrahedron
 from pages import HOSTILE, elements, page_data
 
 from geodesics import Mesh, SurfacePoints
-from geodesics.repair.decimation import clustered
+from geodesics.repair.clustering import clustered
 from gmds import Correspondence, MatchStatus
 from gmds.maps.npz_format import fingerprint
 from gmds.maps.point_map import Candidate

@@ -1,0 +1,60 @@
+"""Coarse copies of meshes with very many faces."""
+
+from __future__ import annotations
+
+import functools
+
+import generated_shapes as shapes
+import numpy as np
+import pytest
+
+from geodesics import Mesh
+from geodesics.closest import closest_on_triangles
+from geodesics.repair.decimation import FEWEST_BEGUN, decimated
+from geodesics.repair.splitting import several_fans
+from geodesics.topology.edges import edges
+
+
+@functools.cache
+def large() -> Mesh:
+    """A sphere with bumps, of so many faces that most go by quadric collapses."""
+    mesh = shapes.bumpy_sphere(6)
+    assert mesh.n_faces > 2 * FEWEST_BEGUN
+    return mesh
+
+
+@pytest.mark.parametrize("size", [1.0, 1e-3, 1e4])
+def test_a_large_mesh_keeps_shape_and_topology_at_any_size(size: float) -> None:
+    mesh = Mesh(large().vertices * size + 5 * size, large().faces)
+    coarse = decimated(mesh, 10_000)
+    assert coarse is not None
+    assert 9_900 <= coarse.n_faces <= 10_000
+    assert (edges(coarse).n_faces == 2).all()
+    assert not several_fans(coarse).any()
+    assert coarse.n_vertices - len(edges(coarse).ends) + coarse.n_faces == 2
+    away = closest_on_triangles(coarse.vertices, mesh.vertices, mesh.faces)[2]
+    assert away.max() < 2e-3 * size  # a tenth of an edge of the coarse mesh
+    assert coarse.area == pytest.approx(mesh.area, rel=2e-3)
+
+
+def test_holes_of_a_large_mesh_stay() -> None:
+    mesh = large()
+    middle = mesh.vertices[mesh.faces].mean(axis=1)
+    cut = Mesh(mesh.vertices, mesh.faces[middle[:, 2] < 0.9 * middle[:, 2].max()])
+    coarse = decimated(cut, 10_000)
+    assert coarse is not None
+    rim = coarse.vertices[np.unique(edges(coarse).ends[edges(coarse).n_faces == 1])]
+    assert len(rim) > 10
+    assert coarse.n_vertices - len(edges(coarse).ends) + coarse.n_faces == 1  # a disc
+
+
+def test_a_large_mesh_that_is_no_manifold_is_cut_apart() -> None:
+    """A fin on an edge: three faces meet there."""
+    mesh = large()
+    a, b = mesh.faces[0, :2]
+    tip = (mesh.vertices[a] + mesh.vertices[b]) * 0.6
+    with_fin = Mesh(np.vstack([mesh.vertices, tip]), np.vstack([mesh.faces, [[a, b, mesh.n_vertices]]]))
+    coarse = decimated(with_fin, 10_000)
+    assert coarse is not None
+    assert coarse.n_faces <= 10_000
+    assert (edges(coarse).n_faces <= 2).all()
