@@ -142,6 +142,6 @@ def test_names_stand_on_the_outer_side_and_within_the_view(name: str) -> None:
     wide, long = 560, LETTER * len(name) + AWAY
     for x in range(0, wide, 5):
         left, right = (x - long, x) if leftwards(x, name, wide) else (x, x + long)
-        assert 0 <= left and right <= wide
+        assert left >= 0 and right <= wide
         outward = x < wide / 2 if x > long and x + long <= wide else None
         assert outward is None or leftwards(x, name, wide) == outward
