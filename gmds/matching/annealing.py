@@ -24,7 +24,7 @@ from geodesics.arrays import Floats
 from geodesics.caching import cached_property
 from geodesics.threads import side_by_side
 from gmds.matching.pair import SurfacePair
-from gmds.matching.proposals import Proposal
+from gmds.matching.proposals import DECISIVE, Proposal
 from gmds.registration.deformable import DeformableMesh
 from gmds.spectral.functional_maps import nearest_rows
 from gmds.surface.view import View
@@ -37,8 +37,13 @@ MOST_ANNEALED = 6
 
 
 def annealed(pair: SurfacePair, maps: Sequence[Proposal]) -> list[Proposal]:
-    """The likeliest of some maps, each annealed and registered again on the simplified meshes."""
+    """The likeliest of some maps, each annealed and registered again on the simplified meshes.
+
+    None where one is nearly an isometry, `DECISIVE`: development pairs gain nothing there.
+    """
     likeliest = sorted(maps, key=lambda one: one.neg_log_likelihood)[:MOST_ANNEALED]
+    if not likeliest or likeliest[0].neg_log_likelihood < DECISIVE:
+        return []
     annealing = Annealing(*pair.simplified, (pair.source.regular, pair.target.regular))
 
     def again(one: Proposal) -> Proposal:
