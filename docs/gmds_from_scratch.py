@@ -71,7 +71,7 @@ def metrics(path: Path, found: dict[str, Any]) -> None:
     nearest = cells(target, found["true"])
     for exponent, points in found["places"].items():
         panels.append((f"|K|^{exponent:g} g", target, 100 * gmds.geodesic_error(points, found["true"])[nearest]))
-    write_values(path, panels, title="mean error x100 of the point of each cell", pixels=300)
+    write_values(path, panels, title="error of the point of each cell", label="error x100", pixels=300)
 
 
 def main() -> None:

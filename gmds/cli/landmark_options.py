@@ -92,4 +92,4 @@ def _given(paths: Sequence[Path], space: Any, meshes: Sequence[Mesh], files: Seq
     if alone:
         shown = ", ".join(alone[:8]) + (", ..." if len(alone) > 8 else "")
         note(f"{len(alone)} landmarks are on one surface only and are not used: {shown}")
-    return source.at, target.at
+    return (source, target) if source.named and target.named else (source.at, target.at)

@@ -70,7 +70,8 @@ def place_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> PlacedLandmar
         raise LandmarkError(
             "E303", f"{len(on_source)} landmarks on the source but {len(on_target)} on the target; give one for each"
         )
-    return PlacedLandmarks(on_source, on_target, _tolerances(tolerance, len(on_source)), tuple(notes))
+    held = _tolerances(tolerance, len(on_source))
+    return PlacedLandmarks(on_source, on_target, held, tuple(notes), tuple(called[0]))
 
 
 def place_on(given: Any, mesh: Mesh, name: str = "surface", called: Sequence[str] = ()) -> SurfacePoints:

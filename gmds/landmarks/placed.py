@@ -19,12 +19,16 @@ DOUBTFUL = 3  # tolerances by which a map misses a soft landmark that may be wro
 
 @dataclass(frozen=True, eq=False)
 class PlacedLandmarks:
-    """Landmarks as points of both surfaces, k each, with the `tolerance` (k,) of each and `notes` on what was moved."""
+    """Landmarks as points of both surfaces, k each, with the `tolerance` (k,) of each and `notes` on what was moved.
+
+    `names` (k,) are those of the source, none where nobody named them.
+    """
 
     on_source: SurfacePoints
     on_target: SurfacePoints
     tolerance: Floats
     notes: tuple[Note, ...] = ()
+    names: tuple[str, ...] = ()
 
     @property
     def constraints(self) -> LandmarkConstraints:
@@ -38,7 +42,8 @@ class PlacedLandmarks:
         points = {
             name: {"face": side.face.tolist(), "barycentric": side.barycentric.tolist()} for name, side in sides.items()
         }
-        return {**points, "tolerance": self.tolerance.tolist()}
+        named = {"names": list(self.names)} if self.names else {}
+        return {**points, "tolerance": self.tolerance.tolist(), **named}
 
     def applied(self, answer: Correspondence) -> tuple[Correspondence, list[Note]]:
         """The map with vertices that are hard landmarks sent exactly where they belong; what is inside a face stays.
@@ -60,9 +65,10 @@ class PlacedLandmarks:
         wrong = np.flatnonzero((self.tolerance > 0) & (missed > DOUBTFUL * self.tolerance))
         if not len(wrong):
             return []
-        worst = wrong[missed[wrong].argmax()]
+        worst = int(wrong[missed[wrong].argmax()])
+        called = self.names[worst] if self.names else f"number {worst}"
         message = (
-            f"{len(wrong)} soft landmarks are missed by more than {DOUBTFUL} tolerances; the worst, number {worst}, by "
+            f"{len(wrong)} soft landmarks are missed by more than {DOUBTFUL} tolerances; the worst, {called}, by "
             f"{missed[worst]:.3f} square roots of the area; are they right?"
         )
         return [Note("W302", "warning", message, tuple(wrong.tolist()))]

@@ -18,7 +18,7 @@ NamedPair = tuple[str, ArrayLike | None, ArrayLike | None]  # a landmark: its pl
 
 
 def landmarks_of(answer: PointMap) -> list[NamedPair]:
-    """The landmarks that a map was made with, by number: where they are on both meshes."""
+    """The landmarks that a map was made with, by name or else by number: where they are on both meshes."""
     made = answer.meta.get("parameters", {}).get("landmarks")
     if not isinstance(made, Mapping):
         return []
@@ -27,7 +27,7 @@ def landmarks_of(answer: PointMap) -> list[NamedPair]:
     except (KeyError, TypeError, ValueError):  # a map of somebody else
         return []
     count = min(map(len, sides))
-    given = answer.meta.get("landmark_names")  # of the first ones, which hands have placed
+    given = made.get("names", answer.meta.get("landmark_names"))  # the latter of the first, which hands have placed
     names = list(map(str, given))[:count] if isinstance(given, list) else [str(i + 1) for i in range(count)]
     return list(zip(names, *(side[: len(names)] for side in sides), strict=True))
 

@@ -16,11 +16,13 @@ from geodesics import Mesh, SurfacePoints, write_mesh
 from gmds.cli import main
 from gmds.correspondence import Correspondence
 from gmds.errors import LandmarkError, MapError
+from gmds.landmarks.checking import place_landmarks
 from gmds.landmarks.files import Landmarks, read_landmarks, write_landmarks
 from gmds.landmarks.transfer import carry_landmarks, landmark_errors
 from gmds.maps.images import image
 from gmds.maps.npz_format import read_meta
 from gmds.maps.point_map import MatchStatus
+from gmds.report.landmarks import landmarks_of
 
 SHAPE = bumpy_sphere(2)
 N = SHAPE.n_vertices
@@ -178,7 +180,8 @@ def test_match_takes_a_file_for_each_surface(pair: tuple[Path, Path], tmp_path: 
     result = run("match", *pair, "-o", tmp_path / "m.npz", *both)
     assert result.exit_code == 0, result.output
     on_source, on_target = GIVEN["landmarks"]
-    assert (on_source == SHAPE.vertices[[3, 11]]).all() and on_target.tolist() == [3, 11]
+    assert (on_source.at == SHAPE.vertices[[3, 11]]).all() and on_target.at.tolist() == [3, 11]
+    assert on_source.names == on_target.names == ("v3", "v11")
     assert "2 landmarks are on one surface only and are not used: v50, else" in result.stderr
     assert run("match", *pair, *both, "--landmarks", tmp_path / "b.csv").exit_code == 2
 
@@ -243,3 +246,17 @@ def test_without_names_errors_go_by_order() -> None:
     carried = carry_landmarks(answer, Landmarks(("1", "2"), np.array([5, 9]), named=False))
     true = Landmarks(("1", "2"), TARGET.vertices[[5, 9]], named=False)
     assert landmark_errors(carried, true) == pytest.approx([0, 0], abs=1e-9)
+
+
+def test_a_map_keeps_the_names_of_the_landmarks_it_was_made_with(pair: tuple[Path, Path], tmp_path: Path) -> None:
+    """From two files that name theirs, in any order, to the page; without names they are numbered."""
+    write_landmarks(tmp_path / "a.csv", Landmarks(("nose", "tail"), np.array([3, 50])))
+    write_landmarks(tmp_path / "b.csv", Landmarks(("tail", "nose"), TARGET.vertices[[50, 3]]))
+    files = ("--landmarks", tmp_path / "a.csv", "--landmarks", tmp_path / "b.csv")
+    assert run("match", *pair, "-o", tmp_path / "m.npz", *files).exit_code == 0
+    plain = Correspondence.from_points(SHAPE, SurfacePoints.at_vertices(TARGET, np.arange(N)))
+    for given, names in ((GIVEN["landmarks"], ["nose", "tail"]), ([[3, 3], [50, 50]], ["1", "2"])):
+        answer, _ = place_landmarks(given, SHAPE, TARGET).applied(plain)
+        found = landmarks_of(answer)
+        assert [name for name, _, _ in found] == names
+        assert np.allclose([there for _, _, there in found], TARGET.vertices[[3, 50]])
