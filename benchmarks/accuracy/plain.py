@@ -8,14 +8,17 @@ its arguments. `--grid`, for the development half, varies a, eps and smoothing o
 starts: plain_grid_<set>.csv and the second table.
 
 Cells of one pair share what they have in common (measured surfaces, eigenfunctions, starts in the same metric), so run
-with one worker; `cpu_seconds` are those of what a cell did not find done.
+with one worker; `cpu_seconds` are those of what a cell did not find done. `--signs DIR` keeps what the confidence of
+each map is made of, for `benchmarks.trust.plain`.
 """
 
 from __future__ import annotations
 
 import hashlib
+import os
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
+from pathlib import Path
 from typing import Any
 from unittest import mock
 
@@ -25,8 +28,9 @@ import geodesics
 import gmds
 import gmds.matching.attempts
 from benchmarks.accuracy.halves import pairs_of
-from benchmarks.accuracy.runs import Job, Rows, arguments, chosen_pairs, code_version, read_rows, run
+from benchmarks.accuracy.runs import SMALL, Job, Rows, arguments, chosen_pairs, code_version, read_rows, run
 from benchmarks.markdown import table
+from benchmarks.trust.plain_signs import SIGNS, noted
 from gmds.benchmarking.run import BenchmarkRow
 from gmds.correspondence import Correspondence
 from gmds.matching.candidates import TIME
@@ -34,7 +38,7 @@ from gmds.matching.pair import SurfacePair
 from gmds.matching.proposals import proposals
 from gmds.surface.measured import EIGENFUNCTIONS, SMOOTHING, Surface, measure
 
-EVERY = {"tosca_5k": 33, "faust_5k": 24, "scaled": 6}  # two pairs of each: a cell takes seconds
+EVERY = {"tosca_5k": 17, "faust_5k": 12, "scaled": 2}  # four or five pairs of each: a cell takes seconds
 FAILED = 15.0  # mean error x100 above which a map is wrong, as the goals of this table say
 LOSSES: dict[str, Callable[[], Any]] = {"LeastSquares": gmds.LeastSquares, "Huber": gmds.Huber, "Minimax": gmds.Minimax}
 METRICS = {"diffusion": (0.0, 1.0), "commute": (0.0, 1.0), "geodesic": (0.0, 0.5, 1.0)}
@@ -88,14 +92,22 @@ def cell(name: str, *, starts: str | None = None) -> Callable[[geodesics.Mesh, g
     settings = [float(number) for number in numbers]
 
     def matcher(source: geodesics.Mesh, target: geodesics.Mesh) -> Correspondence:
+        if source.n_vertices == SMALL:  # what workers warm up on keeps nothing
+            with mock.patch.dict(_kept, clear=True):
+                return matched(source, target)
+        with noted(name, source, target):
+            return matched(source, target)
+
+    def matched(source: geodesics.Mesh, target: geodesics.Mesh) -> Correspondence:
         ours, theirs = surface(source), surface(target)
 
         def shared(pair: SurfacePair, *others: Any) -> Any:
             key = f"starts {starts or numbers} {pair.reflected} {pair.target.turned}"
             return kept(key, lambda: proposals(pair, *others))
 
+        how = {"distance": partial(distance_of, kind, settings), "loss": LOSSES[loss]()}
         with mock.patch.object(gmds.matching.attempts, "proposals", shared):
-            return gmds.match(ours, theirs, distance=partial(distance_of, kind, settings), loss=LOSSES[loss]())
+            return gmds.match(ours, theirs, **how)
 
     return matcher
 
@@ -140,13 +152,19 @@ def main() -> None:
     """Run, and write the tables."""
     parser = arguments(__doc__, EVERY, every=None)
     parser.add_argument("--grid", action="store_true", help="a, eps and smoothing of geodesic distances")
+    parser.add_argument("--signs", type=Path, help="a folder that keeps what confidence is made of")
+    parser.add_argument("--cells", help="cells with this in their name")
     parser.set_defaults(workers=1)
     options = parser.parse_args()
     version = code_version()
+    if options.signs is not None:
+        options.signs.mkdir(parents=True, exist_ok=True)
+        os.environ[SIGNS] = str(options.signs)  # read by workers
     cells, find, prefix = (GRID, grid_cell, "plain_grid") if options.grid else (CELLS, cell, "plain")
     for name in options.sets:
         half = options.half if pairs_of(name) and options.half else None
-        job = Job(name, chosen_pairs(name, half, options.every or EVERY.get(name, 1)), cells, find)
+        chosen = cells if options.cells is None else [one for one in cells if options.cells in one]
+        job = Job(name, chosen_pairs(name, half, options.every or EVERY.get(name, 1)), chosen, find)
         run(job, options.output / f"{prefix}_{name}.csv", version, options.workers)
     write(options.output, version)
 

@@ -34,15 +34,15 @@ def rounds_of(
 ) -> tuple[list[Views], GivenDistances | None]:
     """Both surfaces in each metric in which maps are proposed, by rounds, and the distances that are given, if any.
 
-    First the metric of space: where it decides, those of curvature need not be measured. Beside the metric of distances
-    that are given that of space: where a pair is nearly isometric, it tells the map from its mirror image and from
-    halves of both, which the curvature of few surfaces does as well.
+    First the metric of space: where it decides, those of curvature need not be measured. Beside it that of distances
+    that are given: where a pair is nearly isometric, space tells the map from its mirror image and from halves of both,
+    which the curvature of few surfaces does as well.
     """
     if distance is None:
         return [functools.partial(_in_space, pair), functools.partial(_curved, pair)], None
     given, regular = GivenDistances.of(pair.source, pair.target, distance), (pair.source.regular, pair.target.regular)
     views = [given.views, *([regular] if given.differ_from(regular) else [])]
-    return [lambda: views], given
+    return [lambda: views, functools.partial(_curved, pair)], given
 
 
 def _in_space(pair: SurfacePair) -> list[tuple[View, View]]:

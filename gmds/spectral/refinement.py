@@ -89,20 +89,34 @@ class Refiner:
         metric that they were placed in has no part in this: where it has hardly any area, its eigenfunctions cannot
         tell points apart.
         """
-        carriers, share = self._carriers
+        carriers, _ = self._carriers
         size = max(FEWEST, min(CONTINUED, len(samples) // PER_CONTINUED))
         weight = np.sqrt(KEPT * len(samples) / len(carriers))
         points = before
         for _ in range(2):
-            sent = points.nearest_vertices()[carriers]
-            amounts = np.bincount(sent, share, minlength=self.target.mesh.n_vertices).astype(np.float64)
-            view = self.factors.view(self.factors.density(amounts, ROUNDS[-1][0]), size)
-            k = min(view.functions.shape[1], self.source.regular.functions.shape[1])
-            rows, there = self.source.regular.functions[:, :k], view.functions[:, :k]
+            rows, view = self._keeping_area(points, size)
+            there = view.functions[:, : rows.shape[1]]
             ours = np.vstack([rows[samples], weight * rows[carriers]])
             theirs = np.vstack([placed.interpolate(there), weight * before[carriers].interpolate(there)])
             points = closest_points(view, there @ functional_map(ours, theirs).T, rows)
         return points
+
+    def resolved(self, points: SurfacePoints) -> SurfacePoints:
+        """The map to `points` (n,), written in all eigenfunctions, in the metric in which it keeps area."""
+        carriers, _ = self._carriers
+        rows, view = self._keeping_area(points, self.source.count)
+        there = view.functions[:, : rows.shape[1]]
+        matrix = functional_map(rows[carriers], points[carriers].interpolate(there))
+        return closest_points(view, there @ matrix.T, rows)
+
+    def _keeping_area(self, points: SurfacePoints, count: int) -> tuple[Floats, View]:
+        """Eigenfunctions (n, k) of the source, at most `count`, and the target where a map keeps area."""
+        carriers, share = self._carriers
+        sent = points.nearest_vertices()[carriers]
+        amounts = np.bincount(sent, share, minlength=self.target.mesh.n_vertices).astype(np.float64)
+        view = self.factors.view(self.factors.density(amounts, ROUNDS[-1][0]), count)
+        k = min(view.functions.shape[1], self.source.regular.functions.shape[1])
+        return self.source.regular.functions[:, :k], view
 
 
 def upsampled(source: View, target: View, images: Integers, sizes: Sequence[int] = LADDER) -> Integers:

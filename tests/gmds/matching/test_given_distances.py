@@ -17,6 +17,7 @@ from gmds.matching.steps import rounds_of
 from gmds.mds.losses import Huber, LeastSquares, Loss, Minimax
 from gmds.shapes import truth
 from gmds.spectral.refinement import Refiner
+from gmds.surface.measured import EXPONENTS
 
 
 def invariant(mesh: Mesh) -> Distance:
@@ -29,12 +30,13 @@ def marched(mesh: Mesh) -> Distance:
 
 def test_maps_are_proposed_in_the_metric_given_and_in_that_of_space() -> None:
     pair = SurfacePair(surface(bumpy()), surface(bumpy()))
-    (views_of_given,), given = rounds_of(pair, invariant)
+    (views_of_given, _), given = rounds_of(pair, invariant)
     views = views_of_given()
     assert given is not None and views == [given.views, (pair.source.regular, pair.target.regular)]
-    (views_of_given,), given = rounds_of(pair, lambda mesh: CommuteTimeDistance(eigenpairs(mesh, 60)))
+    (views_of_given, curved), given = rounds_of(pair, lambda mesh: CommuteTimeDistance(eigenpairs(mesh, 60)))
     views = views_of_given()
     assert given is not None and views == [given.views]  # that is the metric of space already
+    assert len(curved()) == len(EXPONENTS)  # where these do not decide
 
 
 def test_what_has_no_coordinates_is_tabulated() -> None:
