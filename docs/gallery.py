@@ -184,6 +184,13 @@ def caricatures(path: Path, example: Names) -> None:
     write_values(path, panels, pixels=PIXELS, signed=True, label="log of the growth of lengths")
 
 
+def weighted_samples(path: Path, example: Names) -> None:
+    """17: the weight of the nearest sample, and the surface that lacks a part."""
+    target = example["target"]
+    panels = [("weights", example["source"], example["weights"]), ("target", target, np.ones(target.n_vertices))]
+    write_values(path, panels, pixels=PIXELS)
+
+
 def specimen(path: Path, _: Names) -> None:
     """The morphometrics script has drawn its specimens itself; one of them, in fewer colours."""
     from PIL import Image
@@ -209,6 +216,7 @@ DRAWN: dict[str, Callable[[Path, Names], None]] = {
     "14_spectral_gmds": rough_and_improved,
     "15_how_far_apart": bounds,
     "16_caricature": caricatures,
+    "17_partial_gmds": weighted_samples,
     "morphometrics/landmark_specimens": specimen,
 }
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from geodesics.arguments import real_numbers, whole_number
 from geodesics.arrays import Floats
 from geodesics.errors import BadArgument
 from geodesics.mesh import Mesh
@@ -41,7 +42,7 @@ def wave_kernel_signature(spectrum: Spectrum | Metric | Mesh, n_energies: int = 
     Raises
     ------
     ValueError
-        When there are fewer than two positive eigenvalues.
+        When there are fewer than two positive eigenvalues, or for another number of energies or width (E604).
 
     References
     ----------
@@ -59,6 +60,10 @@ def wave_kernel_signature(spectrum: Spectrum | Metric | Mesh, n_energies: int = 
     (162, 30)
     """
     spectrum = as_spectrum(spectrum)
+    n_energies = whole_number(n_energies, "n_energies", 1)
+    wide = real_numbers(width, "width")
+    if wide.ndim or not 0 < wide < np.inf:
+        raise BadArgument(f"width must be a positive number of steps between energies, not {width!r:.40}")
     positive = spectrum.eigenvalues * spectrum.mass.sum() > 1e-6
     if np.count_nonzero(positive) < 2:
         raise BadArgument("the wave kernel signature needs at least two positive eigenvalues")

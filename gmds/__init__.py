@@ -47,6 +47,8 @@ if TYPE_CHECKING:
     from gmds.mds.losses import Minimax as Minimax
     from gmds.mds.losses import Power as Power
     from gmds.mds.multiresolution import solve_multiresolution as solve_multiresolution
+    from gmds.mds.partial import PartialSolution as PartialSolution
+    from gmds.mds.partial import solve_partial as solve_partial
     from gmds.mds.problem import Problem as Problem
     from gmds.mds.solver import Solution as Solution
     from gmds.mds.solver import solve as solve
@@ -122,6 +124,10 @@ _NAMES = {
         "Power",
     ),
     "mds.multiresolution": ("solve_multiresolution",),
+    "mds.partial": (
+        "PartialSolution",
+        "solve_partial",
+    ),
     "mds.problem": ("Problem",),
     "mds.solver": (
         "Solution",

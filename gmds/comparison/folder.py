@@ -20,30 +20,31 @@ from geodesics.errors import EigensolverFailed, FormatError
 from geodesics.io import atomic_write
 from gmds.comparison import distortion, profiles
 from gmds.comparison.clustering import nearest
+from gmds.comparison.described import BY_DISTANCES, Described
 from gmds.files.folders import shape_names
 from gmds.files.table import table_text
 from gmds.maps.npz_format import fingerprint
-from gmds.surface.measured import SMOOTHING
 from gmds.surface.view import View
 
 Progress = Callable[[str, float], None]
 
 IN_MEMORY = 40  # surfaces whose eigenfunctions are kept at a time: a bound of memory, 1.3 kB a vertex each
-_SETTINGS = f"{profiles.FUNCTIONS} {profiles.EQUAL_AREA_SAMPLES} {profiles.QUANTILES} {SMOOTHING}"
-_EMBEDDING = f"{_SETTINGS} {distortion.STARTS_PER_METRIC} {distortion.IMPROVED_STARTS} {distortion.SWEEPS}"
+_EMBEDDING = f"{BY_DISTANCES.settings} {distortion.STARTS_PER_METRIC} {distortion.IMPROVED_STARTS} {distortion.SWEEPS}"
 
 
 @dataclass(frozen=True, eq=False)
 class Compared:
     """Shapes by name, with `bounds` and `distortions` (k, k): `least_distortion` and `dissimilarity` of every pair.
 
-    Distortions are NaN where no embedding was computed. `failures`: why a file was left out, by its name.
+    Distortions are NaN where no embedding was computed. `failures`: why a file was left out, by its name. `by`: what
+    the bounds are, if they are not those of distances.
     """
 
     names: tuple[str, ...]
     bounds: Floats
     distortions: Floats
     failures: Mapping[str, str] = field(default_factory=dict)
+    by: Described = BY_DISTANCES
 
     @property
     def matrix(self) -> Floats:
@@ -56,11 +57,18 @@ class Compared:
         return int(np.isfinite(np.triu(self.distortions, 1)[np.triu_indices(len(self.names), 1)]).sum())
 
 
-def compare_files(paths: Sequence[Path], store: Path, *, embed: int = 0, progress: Progress | None = None) -> Compared:
+def compare_files(
+    paths: Sequence[Path],
+    store: Path,
+    *,
+    embed: int = 0,
+    by: Described = BY_DISTANCES,
+    progress: Progress | None = None,
+) -> Compared:
     """The shapes in mesh files, compared; `store` is a folder that keeps what was computed, for the next time.
 
-    Every pair gets its bound; the pairs of each shape with the `embed` others of least bound get a distortion as well.
-    A file that cannot be read or measured is left out and named in `failures`.
+    Every pair gets its bound, or what else two shapes are compared `by`; the pairs of each shape with the `embed`
+    others of least bound get a distortion as well. A file that cannot be read or measured is named in `failures`.
     """
     report = progress or (lambda stage, fraction: None)
     store.mkdir(parents=True, exist_ok=True)
@@ -69,14 +77,14 @@ def compare_files(paths: Sequence[Path], store: Path, *, embed: int = 0, progres
     for i, (name, path) in enumerate(zip(shape_names(paths), paths, strict=True)):
         report(f"measuring {name}", 0.5 * i / len(paths))
         try:
-            known[name] = (path, *_measured(path, store / "profiles" / f"{name}.npz"))
+            known[name] = (path, *_measured(path, store / by.folder / f"{name}.npz", by))
         except (MeshError, FormatError, EigensolverFailed, OSError) as error:
             failures[path.name] = str(error)
     names = tuple(known)
     bounds, distortions = np.zeros((len(names), len(names))), np.full((len(names), len(names)), np.nan)
     np.fill_diagonal(distortions, 0.0)
     for i, j in combinations(range(len(names)), 2):
-        bounds[i, j] = bounds[j, i] = profiles.least_distortion(known[names[i]][2], known[names[j]][2])
+        bounds[i, j] = bounds[j, i] = by.gap(known[names[i]][2], known[names[j]][2])
     near = nearest(bounds, embed)
     pairs = sorted({(min(i, j), max(i, j)) for i, row in enumerate(near.tolist()) for j in row if i != j})
     done = _Distortions(store / "distortions.csv")
@@ -86,23 +94,23 @@ def compare_files(paths: Sequence[Path], store: Path, *, embed: int = 0, progres
         found = done.get(ours, theirs, functools.partial(_embedded, here, there))
         distortions[i, j] = distortions[j, i] = found
     report("done", 1.0)
-    return Compared(names, bounds, distortions, failures)
+    return Compared(names, bounds, distortions, failures, by)
 
 
-def _measured(path: Path, kept: Path) -> tuple[str, Floats]:
-    """What identifies the mesh in a file, and its profile, from the file `kept` if it is there."""
+def _measured(path: Path, kept: Path, by: Described) -> tuple[str, Floats]:
+    """What identifies the mesh in a file, and what it is compared by, from the file `kept` if it is there."""
     mesh = read_mesh(path)
     digest = fingerprint(mesh)["sha256"]
     try:
         with kept.open("rb") as file, np.load(file, allow_pickle=False) as archive:
-            if str(archive["digest"]) == digest and str(archive["settings"]) == _SETTINGS:
+            if str(archive["digest"]) == digest and str(archive["settings"]) == by.settings:
                 return digest, archive["profile"]
     except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error):
         pass  # not there, or not whole: made again
-    found = profiles.distance_profile(mesh)
+    found = by.describe(mesh)
     kept.parent.mkdir(exist_ok=True)
     with atomic_write(kept) as stream:
-        np.savez_compressed(stream, profile=found, digest=digest, settings=_SETTINGS)
+        np.savez_compressed(stream, profile=found, digest=digest, settings=by.settings)
     return digest, found
 
 

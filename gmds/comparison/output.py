@@ -23,7 +23,6 @@ Neighbour = tuple[str, int, str, float, float | None]  # shape, rank, other, bou
 
 NEIGHBOURS_SHOWN = 5  # neighbours of each shape; set by hand
 DISTORTION = "the distortion of the best embeddings found of two shapes in each other"
-BOUND = "the bound, which no embedding that keeps area goes below"
 
 
 def write_comparison(compared: Compared, folder: Path, *, title: str = "Dissimilarity of shapes") -> None:
@@ -81,7 +80,7 @@ def _page(compared: Compared, neighbours: Sequence[Neighbour], drawn: str, title
         shapes=count,
         pairs=count * (count - 1) // 2,
         embedded=compared.embedded_pairs,
-        shown=DISTORTION if compared.matrix is compared.distortions else BOUND,
+        shown=DISTORTION if compared.matrix is compared.distortions else compared.by.words,
         figure=drawn,
         rows="".join(lines),
         failures=f"<h2>Left out</h2><ul>{left_out}</ul>" if left_out else "",

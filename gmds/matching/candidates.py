@@ -41,7 +41,7 @@ class MapCandidate:
     """A map to `points` (n,) of the target, whose samples `solve` placed in the `views` of both surfaces.
 
     `other`: the source registered from another start, at nearly the same cost, until it shows which is the better;
-    `laid`: the source on the target once more, as it lies in space, if that is the better answer.
+    `laid`: the source on the target once more, as it lies in space, if that is better; `is_plain`: nothing registered.
     """
 
     pair: SurfacePair
@@ -52,6 +52,7 @@ class MapCandidate:
     evidence: Evidence
     other: Registered | None = None
     laid: Registered | None = None
+    is_plain: bool = False
 
     @property
     def answer(self) -> SurfacePoints:
@@ -68,8 +69,7 @@ class MapCandidate:
         """Minus the log-likelihood of the map among maps of this pair, up to a constant: what it is chosen by.
 
         Its evidence, and how far the source is bent: distances from a similarity are Gaussian residuals too, of which
-        the largest tell the most, as elastic energies hardly feel them. Limbs bend, so where there are some it counts
-        only that a map hardly bends anything.
+        the largest tell the most. Limbs bend, so where there are some it counts only that a map hardly bends anything.
         """
         most = np.inf if self.pair.limbless else HARDLY_BENT
         by = float(np.clip(bent(self.pair.full[0], self.deformation.y), LEAST_BENT, most))
@@ -99,7 +99,7 @@ def make_candidate(
         points, solution = placed_in_given(pair, images, given, loss, count)
         deformation = assessed(*pair.full, points.positions, FULL)
     weighed = evidence(pair, views, points, proposal.residuals, deformation.residuals)
-    return MapCandidate(pair, points, views, solution, deformation, weighed, other)
+    return MapCandidate(pair, points, views, solution, deformation, weighed, other, is_plain=given is not None)
 
 
 def may_lose_extremities(pair: SurfacePair, proposal: Proposal) -> bool:

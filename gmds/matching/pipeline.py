@@ -68,7 +68,7 @@ def match(  # noqa: PLR0913 - the signature is a promise
         The surfaces. A `Surface`, made by `gmds.surface.measure`, keeps what is computed of it for the next match.
     distance : callable, optional
         A function Mesh -> Distance of surfaces of unit area: plain generalised multidimensional scaling. Maps are
-        proposed in its metric and that of space, samples placed in it alone, and what continues them not registered.
+        proposed in its metric and others, samples placed in it alone; splines continue them, nothing is registered.
     loss : Loss, optional
         How the residuals of the embedding add up; least squares unless given. `Minimax` is reached through powers.
     n_samples : int, optional

@@ -3,7 +3,8 @@ r"""How confident one can be of a map: a logistic model of its signs, fitted to 
 .. math:: \log \frac{p}{1 - p} = c + \sum_k w_k \min(\max(x_k, l_k), u_k)
 
 with the signs :math:`x_k` of `gmds.matching.signs`, held within the range [l, u] that they had where it was fitted:
-`python -m benchmarks.trust.fit` does that, and writes `gmds.matching.weights`.
+`python -m benchmarks.trust.fit` does that, and writes `gmds.matching.weights`. Maps of distances that were given, which
+nothing registers, have a model of their own (`python -m benchmarks.trust.plain`, `gmds.matching.plain_weights`).
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import numpy as np
 from geodesics.arrays import Bools, Floats
 from gmds.maps.point_map import MatchStatus
 from gmds.matching.candidates import MapCandidate
+from gmds.matching.plain_weights import PLAIN_CONSTANT, PLAIN_WEIGHTS
 from gmds.matching.signs import signs_of
 from gmds.matching.weights import CONSTANT, WEIGHTS
 
@@ -31,8 +33,9 @@ def confidence_of(candidate: MapCandidate, margin: float) -> Floats:
     It is 0 at vertices of no area, and where a sign is no number, so that nothing can be said.
     """
     signs = signs_of(candidate, margin)
-    odds = np.full(candidate.pair.source.mesh.n_vertices, CONSTANT)
-    for name, (weight, low, high) in WEIGHTS.items():
+    constant, weights = (PLAIN_CONSTANT, PLAIN_WEIGHTS) if candidate.is_plain else (CONSTANT, WEIGHTS)
+    odds = np.full(candidate.pair.source.mesh.n_vertices, constant)
+    for name, (weight, low, high) in weights.items():
         odds += weight * np.clip(signs[name], low, high)
     result = 1 / (1 + np.exp(-odds))
     result[(candidate.pair.full[0].areas <= 0) | np.isnan(result)] = 0.0

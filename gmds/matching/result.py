@@ -112,7 +112,12 @@ def distortion_of(candidate: MapCandidate) -> Floats:
 
 
 def _badly_kept(best: MapCandidate) -> bool:
-    """Whether distances, curvature or lengths are kept so badly that the map looks wrong."""
+    """Whether distances, curvature or lengths are kept so badly that the map looks wrong.
+
+    That is said of maps that were registered: what was not keeps lengths worse, right or wrong.
+    """
+    if best.is_plain:
+        return False
     whole = best.evidence.whole
     return best.evidence.stress > MOST_STRESS or whole.curvature < LEAST_CURVATURE or whole.energy > MOST_ENERGY
 

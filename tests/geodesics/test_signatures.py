@@ -188,3 +188,13 @@ def test_wave_kernel_of_repeated_eigenvalues_is_the_mean_of_the_squares():
     assert np.ptp(spectrum.eigenvalues[1:]) < 1e-9 * spectrum.eigenvalues[3]
     found = wave_kernel_signature(spectrum, 10)
     assert np.allclose(found, (spectrum.eigenfunctions[:, 1:] ** 2).mean(axis=1, keepdims=True), rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [{"n_energies": [0.01, 0.1]}, {"n_energies": 0}, {"n_energies": 2.5}, {"width": -1}, {"width": [1, 2]}],
+    ids=repr,
+)
+def test_energies_and_widths_that_are_none_are_refused(spectrum, settings):
+    with pytest.raises(ValueError, match="must be"):
+        wave_kernel_signature(spectrum, **settings)

@@ -125,6 +125,14 @@ def test_14_spectral_gmds_improves_a_rough_map(run) -> None:
     assert len(errors) == 2 and max(errors.values()) < 0.5 * rough
 
 
+def test_17_partial_gmds_leaves_out_what_has_no_counterpart(run) -> None:
+    said = run(17)
+    errors = table(said, r"(rough map|all samples|a part of them) +mean error x100 +([\d.]+)")
+    assert errors["a part of them",] < errors["rough map",] < errors["all samples",]
+    ((left, kept),) = re.findall(r"without counterpart ([\d.]+), with ([\d.]+)", said)
+    assert float(left) < 0.3 and float(kept) > 0.8
+
+
 def test_15_bounds_hold_and_a_large_head_matters_less_in_the_invariant_metric(run) -> None:
     row = r"(space|invariant) +(.+?) +Hausdorff ([\d.]+) to ([\d.]+), Wasserstein ([\d.]+) to ([\d.]+)"
     found = re.findall(row, run(15))

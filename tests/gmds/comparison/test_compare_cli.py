@@ -143,3 +143,15 @@ def test_a_folder_without_meshes_is_an_error(tmp_path: Path) -> None:
     write_mesh(bumpy_sphere(1), tmp_path / "one.ply")
     (tmp_path / "broken.off").unlink()
     assert run(tmp_path, "-o", tmp_path / "out").exit_code == 0  # a single shape is a collection too
+
+
+def test_by_self_functional_maps_copies_are_the_same_and_others_are_not(folder: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    result = run(folder, "-o", out, "--by", "self-functional-maps", "--json")
+    assert result.exit_code == 0, result.output
+    said = json.loads(result.stdout)
+    assert (said["by"], said["nearest_has_same_name"]) == ("self-functional-maps", 1)
+    matrix = np.array([[float(x) for x in row[1:]] for row in table(out / "matrix.csv")[1:]])
+    assert np.array_equal(matrix, matrix.T) and matrix[0, 1] < 1e-3 < 0.05 < matrix[0, 3]
+    assert (out / "kept" / "self_functional_maps" / "egg.npz").exists()
+    assert "self functional maps" in (out / "compare.html").read_text()

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 import gmds
-from geodesics import Mesh
+from geodesics import CommuteTimeDistance, Mesh, eigenpairs
 from gmds.evaluation import geodesic_error
 from gmds.maps.point_map import MatchStatus
 from gmds.matching import rating
+from gmds.matching.plain_weights import PLAIN_WEIGHTS
 from gmds.matching.rating import AMBIGUOUS_MARGIN, AS_LIKELY_AS_NOT, SURE, expected_share, status_of
 from gmds.matching.signs import signs_of
 from gmds.matching.weights import WEIGHTS
@@ -101,3 +102,17 @@ def test_only_the_valid_area_counts() -> None:
     confidence, areas = np.array([1.0, 0.5, 0.0]), np.array([1.0, 3.0, 9.0])
     assert expected_share(confidence, areas, np.array([True, True, False])) == pytest.approx(2.5 / 4)
     assert expected_share(confidence, areas, np.zeros(3, dtype=bool)) == 0
+
+
+def commute_time(mesh: Mesh) -> CommuteTimeDistance:
+    return CommuteTimeDistance(eigenpairs(mesh, 60))
+
+
+def test_plain_maps_have_a_model_of_their_own() -> None:
+    """Nothing is registered, and a right map is believed all the same; a person is still no animal."""
+    walking = quadruped("walk", n_vertices=1200)
+    answer = gmds.match(ANIMAL, walking, distance=commute_time)
+    assert geodesic_error(answer, truth(ANIMAL, walking)).mean() < 0.04 and answer.status is MatchStatus.GOOD
+    other = gmds.match(ANIMAL, humanoid(n_vertices=1200), distance=commute_time)
+    assert other.status is not MatchStatus.GOOD and other.confidence.mean() < 0.5 < answer.confidence.mean()
+    assert set(PLAIN_WEIGHTS) < set(WEIGHTS)

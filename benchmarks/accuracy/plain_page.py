@@ -1,0 +1,94 @@
+"""What benchmarks/results/plain.md says of plain generalised multidimensional scaling."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.accuracy.runs import Rows, read_rows
+from benchmarks.markdown import table
+from gmds.benchmarking.run import BenchmarkRow
+from gmds.files.table import read_table
+
+FAILED = 15.0  # mean error x100 above which a map is wrong, as the goals of this table say
+
+
+def figures(rows: list[BenchmarkRow]) -> str:
+    """Mean, median and failures of some rows."""
+    errors = [row.direct for row in rows if row.direct is not None]
+    if not errors:
+        return "-"
+    wrong = sum(error > FAILED for error in errors) + len(rows) - len(errors)
+    return f"{np.mean(errors):.1f} ({np.median(errors):.1f}; {wrong} of {len(rows)})"
+
+
+def report(found: Mapping[str, Rows], cells: Sequence[str], about: str) -> list[str]:
+    """A line for each cell: mean error (median; failures) on each set, the groups of `scaled` apart."""
+    groups = {name: sorted({row.group for row in rows.values()}) for name, rows in found.items() if rows}
+    columns = [(name, group) for name, those in groups.items() for group in those]
+    lines = []
+    for one in cells:
+        kind, a, eps, smoothing, loss = one.split()
+        mine = [
+            [row for (who, _), row in found[name].items() if who == one and row.group == group]
+            for name, group in columns
+        ]
+        if any(mine):
+            lines.append([kind, a, eps, smoothing, loss, *map(figures, mine)])
+    head = ["distance", "a", "eps", "smoothing", "loss", *(f"{name} {group}".strip() for name, group in columns)]
+    return [about, "", *table(head, lines)]
+
+
+def write(output: Path, version: str, tables: Mapping[str, Sequence[str]], sets: Mapping[str, int]) -> None:
+    """plain.md, of the rows that are there: a table of the cells of each kind, by the prefix of its files."""
+    sections = ["# Plain generalised multidimensional scaling", "", f"Measured at {version}. {ABOUT}", ""]
+    for prefix, cells in tables.items():
+        found = {name: read_rows(output / f"{prefix}_{name}.csv", version) for name in sets}
+        if any(found.values()):
+            sections += report({name: rows for name, rows in found.items() if rows}, cells, TITLES[prefix])
+    sections += of_truth(output / "plain_truth.csv")
+    (output / "plain.md").write_text("\n".join(sections), encoding="utf-8")
+
+
+def of_truth(path: Path) -> list[str]:
+    """The stress of maps found and of true maps, by distance and set, in per cent."""
+    if not path.is_file():
+        return []
+    rows = read_table(path)
+    sets = sorted({row["set"] for row in rows})
+    lines = []
+    for cell in dict.fromkeys(row["cell"] for row in rows):
+        kind, a, *_ = cell.split()
+        line = [kind, a]
+        for name in sets:
+            mine = [row for row in rows if (row["cell"], row["set"]) == (cell, name)]
+            means = [
+                np.mean([float(row[column]) for row in mine]) for column in ("stress_of_answer", "stress_of_truth")
+            ]
+            line.append(" / ".join(f"{100 * value:.1f}" for value in means) if mine else "-")
+        lines.append(line)
+    return [OF_TRUTH, "", *table(["distance", "a", *sets], lines)]
+
+
+ABOUT = f"""Mean geodesic error x100, direct, of `match(distance=..., loss=...)`, without registration
+(the median; how many are above {FAILED:g} or failed). Distances are those of the metric (K^2 + eps^2)^(a/2) g."""
+TITLES = {
+    "plain": """## Distances and losses
+
+`python -m benchmarks.accuracy.plain --half reporting`: some pairs of each set, spread over its reporting half. `L2_50`
+and `L4_50` are the settings of the TOSCA toolbox (Bronstein, Bronstein, Kimmel 2006), made with our solver: geodesics
+of space, 50 farthest samples, their squares or fourth powers; start and extension are ours, as it has none. The toolbox
+itself needs Matlab and was not run. The one other GMDS in Python, `GMDS.py` of github.com/ctralie/G-RFLCT, was read and
+not run: it is for Python 2 with wxPython and OpenGL, is not on PyPI, needs all distances of the target, vertex to
+vertex, and starts by ICP, so that both shapes have to be in one pose.""",
+    "plain_grid": """## What a, eps and smoothing do to geodesic distances
+
+`python -m benchmarks.accuracy.plain --half development --grid`""",
+}
+OF_TRUTH = """## The distance or the solver
+
+`python -m benchmarks.accuracy.plain_truth`: root mean square residual, in per cent of the mean distance, near pairs
+weighing more as in `match`, of the map that was found with least squares / of the true map. Where the true map has
+more, no solver would have found it."""
