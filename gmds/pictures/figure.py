@@ -14,6 +14,7 @@ from geodesics.arrays import Floats
 from geodesics.errors import MissingExtra
 from geodesics.extras import how_to_install
 from gmds.pictures.colours import diverging_colours, value_colours
+from gmds.pictures.named import Mark, write_names
 from gmds.pictures.software import Shot
 
 Limits = tuple[float, float]
@@ -33,7 +34,7 @@ DOTS = 100  # per inch: matplotlib measures in inches, and texts are as large be
 class Panel(NamedTuple):
     """One part of a picture: its caption, what is drawn, and the range of its colour bar if it has one.
 
-    The bar has a label, which says the unit; `signed` ones go from below 0 to as far above it.
+    The bar has a label, which says the unit; `signed` ones go from below 0 to as far above it. `marks` are names in it.
     """
 
     caption: str
@@ -41,6 +42,7 @@ class Panel(NamedTuple):
     limits: Limits | None = None
     label: str = ""
     signed: bool = False
+    marks: Sequence[Mark] = ()
 
 
 def composed(panels: Sequence[Panel], images: Sequence[Floats], title: str = "") -> Any:
@@ -63,6 +65,7 @@ def composed(panels: Sequence[Panel], images: Sequence[Floats], title: str = "")
         axis = figure.add_axes((left / width, bottom / height, columns / width, rows / height))
         axis.imshow(image, interpolation="none", aspect="auto")
         axis.set_axis_off()
+        write_names(axis, panel.marks, columns)
         where = ((left + columns / 2) / width, (tallest + 8) / height)
         figure.text(*where, panel.caption, ha="center", va="bottom", parse_math=False)
         if panel.limits is not None:

@@ -7,6 +7,7 @@ import os
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gmds.maps.made_with import landmarks_of
 from gmds.maps.overlap import covered_of
 from gmds.maps.point_map import PointMap
 from gmds.pictures.balls import with_balls
@@ -14,9 +15,12 @@ from gmds.pictures.camera import Direction, alignment, broadside
 from gmds.pictures.colours import BARE, MISSING, few_known, position_colours
 from gmds.pictures.figure import Panel
 from gmds.pictures.judgement import judgement
+from gmds.pictures.named import marks_of
 from gmds.pictures.software import Shot
 from gmds.pictures.values import coloured
 from gmds.pictures.writing import Renderer, write_panels
+
+LANDMARK = (0.12, 0.12, 0.12)  # sRGB, nearly black, which no matching colour is; set by hand
 
 
 def write_picture(  # noqa: PLR0913 - as much as there is to choose
@@ -34,6 +38,7 @@ def write_picture(  # noqa: PLR0913 - as much as there is to choose
     """A picture of source and target in which corresponding points have the same colour.
 
     Grey is what has no counterpart: vertices of the source that are not valid, of the target that are not covered.
+    Landmarks that the map was made with are balls, with their names where they can be seen.
 
     Parameters
     ----------
@@ -97,9 +102,12 @@ def map_panels(
     pulled = answer.points.interpolate(colours)
     pulled[~answer.valid] = MISSING
     colours[~covered_of(answer)] = MISSING
+    views = view, view @ alignment(answer)
     panels = [
-        Panel(names[0], Shot(answer.source, pulled, view, pixels)),
-        Panel(names[1], Shot(answer.target, colours, view @ alignment(answer), pixels)),
+        _with_landmarks(caption, side, answer, Shot(mesh, looks, way, pixels))
+        for caption, side, mesh, looks, way in zip(
+            names, (1, 2), (answer.source, answer.target), (pulled, colours), views, strict=True
+        )
     ]
     caption, values, limits, label, signed = judgement(answer, errors, show)
     if errors is not None or values.any():
@@ -110,3 +118,14 @@ def map_panels(
             shape, shown = with_balls(shape, plain, shape.vertices[known], shown[known])
         panels.append(Panel(caption, Shot(shape, shown, view, pixels), limits, label, signed))
     return panels
+
+
+def _with_landmarks(caption: str, side: int, answer: PointMap, shot: Shot) -> Panel:
+    """A view of the source (1) or the target (2), with the landmarks that the map was made with, by name."""
+    given = [(one[0], np.asarray(one[side], dtype=np.float64)) for one in landmarks_of(answer)]
+    if not given:
+        return Panel(caption, shot)
+    names, places = [name for name, _ in given], np.stack([place for _, place in given])
+    shape, colours = with_balls(shot.mesh, shot.colours, places, np.array(LANDMARK))
+    drawn = Shot(shape, colours, shot.rotation, shot.pixels)
+    return Panel(caption, drawn, marks=marks_of(drawn, shot.mesh, names, places))

@@ -63,8 +63,11 @@ class Shot:
     sharp: bool = False
     smooth: Floats | None = None
 
-    def frame(self, oversampling: int) -> Frame:
-        """The image with so many times the pixels across: parallel projection, a margin of 3 % around the faces."""
+    def frame(self, oversampling: int, places: Floats | None = None) -> Frame:
+        """The image with so many times the pixels across: parallel projection, a margin of 3 % around the faces.
+
+        What it says of vertices it says of `places` (k, 3) instead, where these are given.
+        """
         used = np.unique(self.mesh.faces)
         camera = self.mesh.vertices @ self.rotation.T
         low, high = camera[used].min(axis=0), camera[used].max(axis=0)
@@ -73,8 +76,9 @@ class Shot:
         size = (np.ceil((high - low)[:2] * scale / oversampling) * oversampling + 0.06 * fine).astype(int)
         width, height = (size - size % oversampling).tolist()
         center = (low + high) / 2
-        xy = (camera[:, :2] - center[:2]) * scale * [1, -1] + [width / 2, height / 2]
-        return Frame(xy, (camera[:, 2] - center[2]) * scale, width, height)
+        drawn = camera if places is None else places @ self.rotation.T
+        xy = (drawn[:, :2] - center[:2]) * scale * [1, -1] + [width / 2, height / 2]
+        return Frame(xy, (drawn[:, 2] - center[2]) * scale, width, height)
 
     @cached_property
     def normals(self) -> Floats:

@@ -13,6 +13,7 @@ from geodesics.arrays import Bools, Floats
 from gmds.evaluation import error_curve
 from gmds.maps.growth import growth_of
 from gmds.maps.images import preimage
+from gmds.maps.made_with import NamedPair, landmarks_of
 from gmds.maps.overlap import reach
 from gmds.maps.point_map import PointMap
 from gmds.maps.words import WORDS
@@ -28,7 +29,7 @@ from gmds.pictures.colours import (
 )
 from gmds.report.candidates import maps_of
 from gmds.report.drawing import Drawing
-from gmds.report.landmarks import Both, NamedPair, landmarks_of, places
+from gmds.report.landmarks import Both, places
 from gmds.report.modes import SIGNED, TOPS, modes
 from gmds.report.packing import levels, small
 from gmds.report.told import told

@@ -16,11 +16,12 @@ from geodesics import Mesh
 from geodesics.arrays import Floats
 from geodesics.errors import BadArgument
 from geodesics.io import atomic_write
+from gmds.maps.made_with import NamedPair
 from gmds.maps.point_map import PointMap
 from gmds.pictures.camera import Direction, alignment, broadside
 from gmds.pictures.colours import MISSING, css, diverging_colours, value_colours
 from gmds.report import tables
-from gmds.report.content import NamedPair, content
+from gmds.report.content import content
 from gmds.report.drawing import Drawing, drawing
 from gmds.report.modes import MATCHED_COLOUR, UNMATCHED_COLOUR
 from gmds.report.packing import fingerprint_of, packed_data

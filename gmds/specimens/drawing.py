@@ -14,16 +14,14 @@ from geodesics.extras import how_to_install
 from geodesics.io import atomic_write
 from gmds.pictures.balls import with_balls
 from gmds.pictures.camera import Direction, broadside
-from gmds.pictures.software import render
+from gmds.pictures.named import Mark, seen, spots, write_names
+from gmds.pictures.software import Shot, software
 from gmds.specimens.carried import Landmarked, Specimen
 
 BODY, GOOD, DOUBTFUL = (0.82, 0.80, 0.76), (0.10, 0.35, 0.75), (0.85, 0.10, 0.10)  # sRGB; set by hand
 PIXELS = 560  # of the longer side of a view; set by hand
 COLUMNS = 3  # of the sheet; set by hand
-FILLED = 0.94  # of a view, by the surface, as `render` draws it
 AZIMUTHS = (30.0, 210.0)  # degrees about the upward axis: the two sides of an animal
-LETTER, AWAY = 7, 6  # pixels of a view: of a letter at most, and from a landmark to its name, which stands outside
-CLOSE = 0.02  # of the size of the specimen by which a landmark may lie behind what covers it, and is seen all the same
 
 
 def write_pictures(folder: Path, found: Landmarked, up: Direction) -> None:
@@ -59,42 +57,10 @@ def _views(one: Specimen, up: Direction) -> list[View]:
     found = []
     for azimuth in AZIMUTHS:
         view = broadside(one.mesh, up, azimuth=azimuth)
-        image = render(shape, colours, rotation=view, pixels=PIXELS)
-        rows, columns = image.shape[:2]
-        camera = shape.vertices @ view.T
-        low, high = camera[:, :2].min(axis=0), camera[:, :2].max(axis=0)
-        scale = FILLED * PIXELS / (high - low).max()
-        marks = one.configuration @ view.T
-        spots = (marks[:, :2] - (low + high) / 2) * scale * [1, -1] + [columns / 2, rows / 2]
-        found.append((image, spots, _seen(one.mesh.vertices @ view.T, one.mesh.faces, marks)))
+        shot = Shot(shape, colours, view, PIXELS)
+        marked = seen(one.mesh.vertices @ view.T, one.mesh.faces, one.configuration @ view.T)
+        found.append((software([shot])[0], spots(shot, one.configuration), marked))
     return found
-
-
-def _seen(camera: Floats, faces: Any, marks: Floats) -> Bools:
-    """Which places (k, 3) no face covers, in coordinates whose third axis points at the viewer."""
-    corners = camera[faces]
-    low, high = corners[..., :2].min(axis=1), corners[..., :2].max(axis=1)
-    margin = CLOSE * np.ptp(camera, axis=0).max()
-    seen: Bools = np.asarray(np.isfinite(marks).all(axis=1), dtype=np.bool_)
-    for i in np.flatnonzero(seen):
-        over = corners[((low <= marks[i, :2]) & (marks[i, :2] <= high)).all(axis=1)]
-        a, b, c = over[:, 0], over[:, 1] - over[:, 0], over[:, 2] - over[:, 0]
-        area = b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0]
-        proper = area != 0
-        a, b, c, area = a[proper], b[proper], c[proper], area[proper]
-        d = marks[i] - a
-        v = (d[:, 0] * c[:, 1] - d[:, 1] * c[:, 0]) / area
-        w = (b[:, 0] * d[:, 1] - b[:, 1] * d[:, 0]) / area
-        inside = (v >= 0) & (w >= 0) & (v + w <= 1)
-        height = a[:, 2] + v * b[:, 2] + w * c[:, 2]
-        seen[i] = not (height[inside] > marks[i, 2] + margin).any()
-    return seen
-
-
-def leftwards(x: float, name: str, wide: float) -> bool:
-    """Whether a name stands left of its landmark, at x of a view so wide: on the outer side, if there is room."""
-    long = len(name) * LETTER + AWAY
-    return long < x < wide / 2 or (x + long > wide and long < x)
 
 
 def _save(path: Path, specimens: Sequence[tuple[Specimen, list[View]]], names: Sequence[str], columns: int = 1) -> None:
@@ -110,18 +76,15 @@ def _save(path: Path, specimens: Sequence[tuple[Specimen, list[View]]], names: S
     FigureCanvasAgg(figure)
     for number, (one, views) in enumerate(specimens):
         left, top = (number % across) / across, 1 - (number // across) / down
-        for image, spots, seen in views:
+        for image, places, there in views:
             rows, wide = image.shape[:2]
             box = (left, top - (30 + rows) / height / down, wide / width / across, rows / height / down)
             axis = figure.add_axes(box)
             axis.imshow(image)
             axis.set_axis_off()
-            for i in np.flatnonzero(seen).tolist():
-                ink = DOUBTFUL if one.doubtful[i] else "black"
-                size, away = 8 * max(share, 0.6), -AWAY if leftwards(spots[i][0], names[i], wide) else AWAY
-                x, y = spots[i] + [away, -AWAY]
-                side = "left" if away > 0 else "right"
-                axis.text(x, y, names[i], fontsize=size, color=ink, parse_math=False, ha=side)
+            inks = [DOUBTFUL if doubtful else "black" for doubtful in one.doubtful]
+            marks = [Mark(names[i], places[i, 0], places[i, 1], inks[i]) for i in np.flatnonzero(there).tolist()]
+            write_names(axis, marks, wide, 8 * max(share, 0.6))
             left += wide / width / across
         middle = (number % across + 0.5) / across
         figure.text(middle, top - 4 / height / down, one.name, ha="center", va="top", parse_math=False)

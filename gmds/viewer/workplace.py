@@ -14,9 +14,9 @@ import numpy as np
 from geodesics.arrays import Floats
 from gmds.correspondence import Correspondence
 from gmds.landmarks.files import Landmarks, Space, write_landmarks
+from gmds.maps.made_with import NamedPair, landmarks_of
 from gmds.pictures.camera import Direction
 from gmds.report.content import maps_content
-from gmds.report.landmarks import NamedPair, landmarks_of
 from gmds.report.packing import packed_data
 from gmds.report.page import Work, drawings, page_text
 from gmds.viewer.again import matched_again

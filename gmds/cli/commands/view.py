@@ -15,7 +15,7 @@ from gmds.cli.view_options import up_option
 
 if TYPE_CHECKING:
     from geodesics import Mesh
-    from gmds.report.landmarks import NamedPair
+    from gmds.maps.made_with import NamedPair
 
 FILE = click.Path(path_type=Path)
 

@@ -20,9 +20,9 @@ from gmds.landmarks.checking import place_landmarks
 from gmds.landmarks.files import Landmarks, read_landmarks, write_landmarks
 from gmds.landmarks.transfer import carry_landmarks, landmark_errors
 from gmds.maps.images import image
+from gmds.maps.made_with import landmarks_of
 from gmds.maps.npz_format import read_meta
 from gmds.maps.point_map import MatchStatus
-from gmds.report.landmarks import landmarks_of
 
 SHAPE = bumpy_sphere(2)
 N = SHAPE.n_vertices

@@ -15,6 +15,7 @@ from geodesics import Mesh, SurfacePoints
 from gmds import Correspondence
 from gmds.cli.fields import PICTURES
 from gmds.errors import PictureFormat, RenderingError
+from gmds.landmarks.checking import place_landmarks
 from gmds.pictures.camera import alignment, broadside
 from gmds.pictures.colours import BARE, MISSING, css, label_colours, position_colours, value_colours
 from gmds.pictures.figure import FORMATS
@@ -308,3 +309,18 @@ def test_marked_vertices_get_a_ball_where_they_can_be_seen(tmp_path: Path) -> No
     assert np.allclose(balls.mean(axis=1), sphere.vertices[[0, 7]])
     assert np.allclose(shot.colours[sphere.n_vertices :], INK)
     assert np.array_equal(shot.colours[: sphere.n_vertices], value_colours(values, values.min(), values.max()))
+
+
+def test_landmarks_are_balls_with_names_where_they_can_be_seen(answer: Correspondence) -> None:
+    """A name stands at the pixel where its ball is drawn; one behind the body has a ball and no name."""
+    side = answer.source.vertices[:, 1]
+    rows = [int(answer.source.vertices[:, 0].argmax()), int(side.argmax()), int(side.argmin())]
+    placed = place_landmarks((np.array(rows), answer.points[rows]), answer.source, answer.target)
+    panels = map_panels(replace(placed, names=("nose", "left", "right")).applied(answer)[0], pixels=400)
+    for panel, mesh in zip(panels[:2], (answer.source, answer.target), strict=True):
+        assert panel.shot.mesh.n_vertices == mesh.n_vertices + 3 * 6
+        assert {mark.name for mark in panel.marks} < {"nose", "left", "right"} and len(panel.marks) >= 1
+        image = software([panel.shot])[0]
+        for _, x, y, _ in panel.marks:
+            assert image[int(y), int(x)].max() < 0.3, "the ball is dark"
+    assert not panels[2].marks

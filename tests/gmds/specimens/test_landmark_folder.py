@@ -17,8 +17,8 @@ from scipy.spatial.transform import Rotation
 from geodesics import Mesh, write_mesh
 from gmds.cli import main
 from gmds.landmarks.files import Landmarks, read_landmarks
+from gmds.pictures.named import AWAY, LETTER, leftwards, seen
 from gmds.shapes import quadruped, truth
-from gmds.specimens.drawing import AWAY, LETTER, _seen, leftwards
 
 TURN = Rotation.from_euler("xyz", [20, 50, -70], degrees=True).as_matrix()
 Done = tuple[Path, Path, Any, Any, Landmarks]
@@ -127,8 +127,8 @@ def test_only_what_can_be_seen_is_named() -> None:
     side = np.array([np.linalg.norm(mesh.rest - [0, y, 1], axis=1).argmin() for y in (-0.3, 0.3)])  # both flanks
     toward = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])  # the viewer stands at -y
     camera = mesh.rest @ toward.T
-    assert _seen(camera, mesh.faces, camera[side]).tolist() == [True, False]
-    assert _seen(camera, mesh.faces, np.full((1, 3), np.nan)).tolist() == [False]
+    assert seen(camera, mesh.faces, camera[side]).tolist() == [True, False]
+    assert seen(camera, mesh.faces, np.full((1, 3), np.nan)).tolist() == [False]
 
 
 def test_wrong_use_is_told(tmp_path: Path) -> None:
