@@ -104,7 +104,7 @@ def anatomy(start: str) -> Set:
     """The specimens of the first two pairs of `anatomy/pairs.json` whose names start so."""
     root = Path(os.environ["GMDS_DATA"])
     entries = [e for e in json.loads((root / "anatomy" / "pairs.json").read_text()) if e["name"].startswith(start)][:2]
-    sides = any(entry["orientation"] == "any" for entry in entries)
+    sides = any(entry.get("orientation") == "any" for entry in entries)
     meshes, pairs = {}, []
     for entry in entries:
         names = [Path(entry[side]).stem.replace("__", "_") for side in ("source", "target")]
