@@ -7,20 +7,23 @@ kept from before, in a process of its own: CPU seconds are its own and those of 
 not its workers, held. A *shape* is what `match_collection` measures of each, a *pair* a match of two measured shapes:
 the mean CPU seconds of those of that run. The goal is `count` times a shape and one and a half pairs. The smallest
 count is run once more, killed with all its workers once a third of its maps are there, and started again: its files
-are to be the same bytes. Writes results/atlas_cost.md.
+are to be the same bytes. FOLDER keeps what was measured. Writes results/atlas_cost.md.
 """
 
 from __future__ import annotations
 
 import argparse
+import functools
 import hashlib
 import json
 import os
 import resource
+import shutil
 import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -90,6 +93,7 @@ def shape_seconds(meshes: Path, out: Path, some: int = 5) -> float:
     from gmds.batch.collection import Shape
     from gmds.batch.store import Store
 
+    shutil.rmtree(out, ignore_errors=True)
     (out / "shapes").mkdir(parents=True)
     store, spent = Store(out / "shapes"), []
     for path in sorted(meshes.iterdir())[:some]:
@@ -117,13 +121,16 @@ def digests(out: Path) -> dict[str, str]:
     return {str(path.relative_to(out)): hashlib.sha256(path.read_bytes()).hexdigest() for path in files}
 
 
-def measured(meshes: Path, count: int, out: Path, shape: float) -> dict[str, Any]:
-    """What one atlas takes, beside its goal."""
+def measured(meshes: Path, count: int, out: Path, shape: Callable[[], float]) -> dict[str, Any]:
+    """What one atlas takes, beside its goal; from the folder, where it was measured before."""
+    kept = out / "cost.json"
+    if kept.exists():
+        return dict(json.loads(kept.read_text(encoding="utf-8")))
     done = subprocess.run(command(meshes, count, out), check=True, capture_output=True, text=True)
     told = json.loads(done.stdout.splitlines()[-1])
-    pair = pair_seconds(out)
-    goal = count * (shape + 1.5 * pair)
-    found = {"count": count, **told, "shape": shape, "pair": pair, "goal": goal}
+    found = {"count": count, **told, "shape": shape(), "pair": pair_seconds(out)}
+    found["goal"] = count * (found["shape"] + 1.5 * found["pair"])
+    kept.write_text(json.dumps(found), encoding="utf-8")
     print(found, flush=True)
     return found
 
@@ -141,7 +148,7 @@ def main() -> None:
     folder, counts = given.folder, sorted(given.counts)
     meshes = folder / "meshes"
     write_animals(meshes, counts[-1], given.vertices)
-    shape = shape_seconds(meshes, folder / "shape")
+    shape = functools.partial(shape_seconds, meshes, folder / "shape")
     rows = [measured(meshes, count, folder / f"atlas-{count}", shape) for count in counts]
     killed_and_resumed(meshes, counts[0], folder / "killed")
     before, after = digests(folder / f"atlas-{counts[0]}"), digests(folder / "killed")
