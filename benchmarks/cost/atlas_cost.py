@@ -23,7 +23,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -33,7 +33,7 @@ from benchmarks.accuracy.runs import code_version
 from benchmarks.markdown import table
 from benchmarks.places import RESULTS
 from geodesics import write_mesh
-from gmds.shapes import quadruped
+from gmds.shapes import Figure, quadruped
 
 PAGE = RESULTS / "atlas_cost.md"
 POSES = ("stand", "walk", "graze", "turn")
@@ -41,17 +41,24 @@ SAME = ("atlas.npz", "mean.ply", "summary.csv", "variation.csv", "registered")
 KILLED_AT = 1 / 3  # of the maps
 
 
-def write_animals(folder: Path, count: int, vertices: int) -> None:
-    """`count` animals, of which parts are larger or smaller by 15 % (standard deviation), into a folder."""
-    folder.mkdir(parents=True, exist_ok=True)
+def animals(count: int, vertices: int) -> Iterator[tuple[str, Figure]]:
+    """`count` animals in four poses, of which parts are larger or smaller by 15 % (standard deviation), with names."""
     rng = np.random.default_rng(3)
     for i in range(count):
         ear, leg, head = np.exp(0.15 * rng.standard_normal(3)).tolist()
-        path = folder / f"animal{i:02d}.ply"
-        if not path.exists():
-            pose = POSES[i % len(POSES)]
-            mesh = quadruped(pose, n_vertices=vertices, seed=i, ear_scale=ear, leg_scale=leg, head_scale=head)
-            write_mesh(mesh, path)
+        pose = POSES[i % len(POSES)]
+        yield (
+            f"animal{i:02d}",
+            quadruped(pose, n_vertices=vertices, seed=i, ear_scale=ear, leg_scale=leg, head_scale=head),
+        )
+
+
+def write_animals(folder: Path, count: int, vertices: int) -> None:
+    """The animals as files of a folder."""
+    folder.mkdir(parents=True, exist_ok=True)
+    if len(list(folder.iterdir())) < count:
+        for name, mesh in animals(count, vertices):
+            write_mesh(mesh, folder / f"{name}.ply")
 
 
 def child(meshes: Path, count: int, out: Path) -> None:
