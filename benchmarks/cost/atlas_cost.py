@@ -135,7 +135,7 @@ def measured(meshes: Path, count: int, out: Path, shape: Callable[[], float]) ->
         return dict(json.loads(kept.read_text(encoding="utf-8")))
     done = subprocess.run(command(meshes, count, out), check=True, capture_output=True, text=True)
     told = json.loads(done.stdout.splitlines()[-1])
-    found = {"count": count, **told, "shape": shape(), "pair": pair_seconds(out)}
+    found = {"count": count, **told, "shape": shape(), "pair": pair_seconds(out), "version": code_version()}
     found["goal"] = count * (found["shape"] + 1.5 * found["pair"])
     kept.write_text(json.dumps(found), encoding="utf-8")
     print(found, flush=True)
@@ -169,9 +169,11 @@ def page(rows: list[dict[str, Any]], is_same: bool, files: int, vertices: int) -
     for row in rows:
         figures = (f"{row[key]:.1f}" for key in ("cpu", "shape", "pair", "goal"))
         lines.append([row["count"], *figures, f"{row['cpu'] / row['goal']:.2f}", f"{row['own']:.1f}"])
-        lines[-1].append(f"{row['memory']:.0f}")
-    head = ["specimens", "CPU s", "a shape", "a pair", "goal", "of the goal", "driver, CPU s", "driver, MB"]
-    told = f"`python -m benchmarks.cost.atlas_cost FOLDER` at {code_version()}, animals of {vertices:,} vertices."
+        lines[-1] += [f"{row['memory']:.0f}", row["version"]]
+    head = ["specimens", "CPU s", "a shape", "a pair", "goal", "of the goal", "driver, CPU s", "driver, MB", "version"]
+    told = (
+        f"`python -m benchmarks.cost.atlas_cost FOLDER`, animals of {vertices:,} vertices; a machine with other work."
+    )
     about = (
         f"The atlas of {rows[0]['count']} that was killed and started again: {files} files, "
         f"{'all the same bytes' if is_same else '**not the same bytes**'}."
