@@ -171,9 +171,7 @@ def page(rows: list[dict[str, Any]], is_same: bool, files: int, vertices: int) -
         lines.append([row["count"], *figures, f"{row['cpu'] / row['goal']:.2f}", f"{row['own']:.1f}"])
         lines[-1] += [f"{row['memory']:.0f}", row["version"]]
     head = ["specimens", "CPU s", "a shape", "a pair", "goal", "of the goal", "driver, CPU s", "driver, MB", "version"]
-    told = (
-        f"`python -m benchmarks.cost.atlas_cost FOLDER`, animals of {vertices:,} vertices; a machine with other work."
-    )
+    told = f"`python -m benchmarks.cost.atlas_cost FOLDER`, {vertices:,} vertices, a machine with other work."
     about = (
         f"The atlas of {rows[0]['count']} that was killed and started again: {files} files, "
         f"{'all the same bytes' if is_same else '**not the same bytes**'}."
