@@ -41,7 +41,8 @@ EXTRAS = {
     "neuro": (PACKAGES["neuro"], "GIFTI and FreeSurfer surfaces"),
     "notebook": (PACKAGES["notebook"], "maps to turn in a notebook"),
 }
-MODULES = {"libigl": "igl", "tomli-w": "tomli_w", "pillow": "PIL"}  # modules that are not called as their package
+# modules that are not called as their package
+MODULES = {"libigl": "igl", "tomli-w": "tomli_w", "pillow": "PIL", "fast-simplification": "fast_simplification"}
 PATIENCE = 120  # seconds that an import may take: a bound
 
 State = Literal["ok", "absent", "problem"]
