@@ -35,7 +35,7 @@ from gmds.matching.pair import SurfacePair
 from gmds.matching.proposals import proposals
 from gmds.surface.measured import EIGENFUNCTIONS, SMOOTHING, Surface, measure
 
-EVERY = {"tosca_5k": 22, "faust_5k": 16, "scaled": 4}  # three pairs of each: a cell takes seconds
+EVERY = {"tosca_5k": 44, "faust_5k": 16, "scaled": 8}  # two or three pairs of each: a cell takes seconds
 LOSSES: dict[str, Callable[[], Any]] = {"LeastSquares": gmds.LeastSquares, "Huber": gmds.Huber, "Minimax": gmds.Minimax}
 FEW = {"L2_50": gmds.LeastSquares, "L4_50": lambda: gmds.Power(4.0)}  # with 50 samples, as the TOSCA toolbox has them
 METRICS = {"diffusion": (0.0, 1.0), "commute": (0.0, 1.0), "geodesic": (0.0, 0.5, 1.0)}

@@ -73,7 +73,9 @@ def of_truth(path: Path) -> list[str]:
 
 
 ABOUT = f"""Mean geodesic error x100, direct, of `match(distance=..., loss=...)`, without registration
-(the median; how many are above {FAILED:g} or failed). Distances are those of the metric (K^2 + eps^2)^(a/2) g."""
+(the median; how many are above {FAILED:g} or failed, of how many: where that differs, means are of other pairs).
+Distances are those of the metric (K^2 + eps^2)^(a/2) g. The files plain_*.csv tell the status as it was before
+trust_plain.md; `cpu_seconds` lack what another cell of the pair had found already."""
 TITLES = {
     "plain": """## Distances and losses
 
@@ -91,4 +93,5 @@ OF_TRUTH = """## The distance or the solver
 
 `python -m benchmarks.accuracy.plain_truth`: root mean square residual, in per cent of the mean distance, near pairs
 weighing more as in `match`, of the map that was found with least squares / of the true map. Where the true map has
-more, no solver would have found it."""
+more, no solver would have found it: so it is for distances of space where parts grew, and for geodesics on TOSCA. Where
+it has less, the rest was lost on the way: by the solver, between samples, and by smoothing."""
