@@ -40,6 +40,18 @@ TEETH = (  # pairs that pairs.json has not; both kinds of sides
 EVERY_PART, EVERY_CUT = 3, 3
 COARSE = (300, 450, 600)
 POSES = ((shapes.quadruped, "walk"), (shapes.quadruped, "graze"), (shapes.humanoid, "walk"), (shapes.humanoid, "kick"))
+GROWN = (
+    (shapes.quadruped, "turn", "ear_scale", 0.6),
+    (shapes.quadruped, "graze", "ear_scale", 0.6),
+    (shapes.quadruped, "walk", "tail_scale", 1.5),
+    (shapes.quadruped, "graze", "leg_scale", 1.3),
+    (shapes.quadruped, "walk", "ear_scale", 2.0),
+    (shapes.quadruped, "turn", "tail_scale", 0.6),
+    (shapes.humanoid, "walk", "head_scale", 1.4),
+    (shapes.humanoid, "kick", "hand_scale", 1.3),
+    (shapes.humanoid, "wave", "leg_scale", 0.7),
+    (shapes.humanoid, "walk", "hand_scale", 1.6),
+)
 HALVES = ("development", "reporting")
 
 
@@ -68,7 +80,9 @@ def cases() -> list[Case]:
     A pair and its way back are next to another: of four in turn the outer two are for development.
     """
     kinds: dict[str, list[Case]] = {}
-    for name, kind, load, options in itertools.chain(_published(), _anatomy(), _species(), _parts(), _coarse()):
+    for name, kind, load, options in itertools.chain(
+        _published(), _anatomy(), _species(), _parts(), _coarse(), _grown()
+    ):
         of_kind = kinds.setdefault(kind, [])
         of_kind.append(Case(name, kind, load, options, HALVES[len(of_kind) % 4 in (1, 2)]))
     return [case for row in itertools.zip_longest(*kinds.values()) for case in row if case is not None]
@@ -145,6 +159,19 @@ def _coarse() -> Iterator[Row]:
             return _known(source, target, range(source.n_vertices), shapes.truth(source, target))
 
         yield f"coarse {make.__name__} {pose} {n_vertices}", "coarse", load, {}
+
+
+def _grown() -> Iterator[Row]:
+    """Built-in shapes and others of which a part is larger or smaller, in other poses."""
+    for number, (make, pose, part, size) in enumerate(GROWN):
+
+        def load(
+            make: Callable[..., Any] = make, pose: str = pose, part: str = part, size: float = size, seed: int = number
+        ) -> Known:
+            source, target = make(n_vertices=1500), make(pose, n_vertices=1500, seed=seed + 3, **{part: size})
+            return _known(source, target, range(source.n_vertices), shapes.truth(source, target))
+
+        yield f"grown {make.__name__} {pose} {part} {size}", "grown", load, {}
 
 
 def _pair(pair: Pair) -> Callable[[], Known]:

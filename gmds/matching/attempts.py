@@ -78,7 +78,7 @@ class Attempt:
         pair = SurfacePair(source, image.of(target), wanted.landmarks, image.reverses)
         rounds, given = rounds_of(pair, wanted.distance)
         found = proposals(pair, rounds, starts_of(pair), lambda share: wanted.report("proposing", 0.2 + 0.3 * share))
-        maps = [*found.maps, *(annealed(pair, found.maps) if given is None else [])]
+        maps = [*found.maps, *([] if given is not None or found.isometric else annealed(pair, found.maps))]
         pair = replace(pair, isometric=found.isometric)
         return cls(image, pair, likely_maps(maps, pair.simplified[0].areas), given, wanted)
 

@@ -10,9 +10,13 @@ import pytest
 from matched_shapes import animal, permuted
 from numpy.typing import NDArray
 
-from gmds.matching.annealing import MOST_ANNEALED, SIZES, Annealing, annealed
+import gmds
+from gmds.evaluation import geodesic_error
+from gmds.matching.annealing import LEAST_GAIN, MOST_ANNEALED, SIZES, Annealing, annealed
 from gmds.matching.pair import SurfacePair
-from gmds.matching.proposals import DECISIVE, Proposal
+from gmds.matching.proposals import Proposal
+from gmds.shapes import quadruped
+from gmds.shapes import truth as truth_of
 from gmds.surface.measured import measure
 
 Array = NDArray[np.float64]
@@ -64,13 +68,25 @@ def test_a_rough_map_comes_near_the_truth(seed: int) -> None:
 def test_the_likeliest_are_annealed_and_marked() -> None:
     pair, truth = turned()
     rng = np.random.default_rng(3)
-    maps = [Proposal.of(pair, truth + rough * rng.normal(size=truth.shape)) for rough in np.linspace(0.02, 0.8, 8)]
-    assert min(one.neg_log_likelihood for one in maps) < DECISIVE
-    assert annealed(pair, maps) == []  # one is an isometry
-    maps = [one for one in maps if one.neg_log_likelihood > DECISIVE]
+    maps = [Proposal.of(pair, truth + rough * rng.normal(size=truth.shape)) for rough in np.linspace(0.3, 0.8, 8)]
     better = annealed(pair, maps)
-    assert len(better) == min(len(maps), MOST_ANNEALED) > 0
+    assert len(better) == MOST_ANNEALED
     assert all(one.annealed for one in better)
     assert not any(one.annealed for one in maps)
-    best = min(maps, key=lambda one: one.neg_log_likelihood)
-    assert miss(better[0].registered.points.positions) < miss(best.registered.points.positions) + 0.01
+    likeliest, before = (min(some, key=lambda one: one.neg_log_likelihood) for some in (better, maps))
+    assert likeliest.neg_log_likelihood < before.neg_log_likelihood - LEAST_GAIN
+    assert miss(likeliest.registered.points.positions) < miss(before.registered.points.positions)
+
+
+def test_nothing_is_added_where_nothing_is_gained() -> None:
+    pair, truth = turned()
+    assert annealed(pair, [Proposal.of(pair, truth)]) == []
+
+
+@pytest.mark.parametrize(("tail", "seed"), [(1.3, 4), (1.5, 4)])
+def test_a_head_is_not_turned_round(tail: float, seed: int) -> None:
+    """Before, nose and ears were exchanged, an eighth of the points off, and the map called GOOD."""
+    source, target = quadruped(n_vertices=1500), quadruped("walk", tail_scale=tail, n_vertices=1500, seed=seed)
+    error = geodesic_error(gmds.match(source, target).points, truth_of(source, target))
+    assert error.mean() < 0.015
+    assert error.max() < 0.1
