@@ -117,7 +117,8 @@ def decimated(mesh: Mesh, n_faces: int) -> Mesh | None:
 def _begun(v: Floats, faces: Integers, n_faces: int) -> tuple[Floats, Integers]:
     """Of very many faces some `BEGUN` times `n_faces`, left by quadric collapses in an eighth of the time of others.
 
-    All of them where there are not so many, or where what is left is no manifold.
+    All of them where there are not so many, or where what is left is no manifold. Quadrics leave long, thin faces where
+    a surface bends one way alone, over which collapses of the shortest edges would fold it: their edges are flipped.
     """
     import fast_simplification
 
@@ -131,7 +132,8 @@ def _begun(v: Floats, faces: Integers, n_faces: int) -> tuple[Floats, Integers]:
     few = few.reshape(-1, 3).astype(np.int64)
     if not len(few) or not _can_be_collapsed(few):
         return v, faces
-    return np.asarray(places[used] * size + center, dtype=np.float64), few
+    begun = np.asarray(places[used] * size + center, dtype=np.float64)
+    return begun, flip_towards_delaunay(begun, few)
 
 
 def _clustered_and_cleaned(mesh: Mesh, n_faces: int) -> Mesh | None:

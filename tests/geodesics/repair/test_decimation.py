@@ -58,3 +58,25 @@ def test_a_large_mesh_that_is_no_manifold_is_cut_apart() -> None:
     assert coarse is not None
     assert coarse.n_faces <= 10_000
     assert (edges(coarse).n_faces <= 2).all()
+
+
+def test_a_regular_grid_does_not_fold() -> None:
+    """A ring of such rows of faces is left in long, thin ones by quadrics."""
+    across, along = np.meshgrid(np.arange(130), np.arange(400), indexing="ij")
+    start = (across * 400 + along).ravel()
+    right, up = ((across + 1) % 130 * 400 + along).ravel(), (across * 400 + (along + 1) % 400).ravel()
+    beyond = ((across + 1) % 130 * 400 + (along + 1) % 400).ravel()
+    turn, tube = 2 * np.pi * across.ravel() / 130, 2 * np.pi * along.ravel() / 400
+    out = 2 + np.cos(tube)
+    vertices = np.column_stack([out * np.cos(turn), out * np.sin(turn), np.sin(tube)])
+    faces = np.vstack([np.column_stack([beyond, start, right]), np.column_stack([up, start, beyond])])
+    coarse = decimated(Mesh(vertices, faces), 8_000)
+    assert coarse is not None
+    corners = coarse.vertices[coarse.faces]
+    middle = corners.mean(axis=1)
+    ring = middle * [1, 1, 0]
+    outwards = middle - 2 * ring / np.linalg.norm(ring, axis=1)[:, None]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    sides = np.sign(np.einsum("ij,ij->i", normals, outwards))
+    assert abs(sides.sum()) == coarse.n_faces  # all face one way
+    assert coarse.area == pytest.approx(4 * np.pi**2 * 2, rel=5e-3)
