@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -30,7 +30,7 @@ def plot(
     values: ArrayLike | None = None,
     *,
     points: SurfacePoints | ArrayLike | None = None,
-    paths: Sequence[SurfacePoints | ArrayLike] = (),
+    paths: Sequence[SurfacePoints | ArrayLike] | SurfacePoints | None = None,
     label: str = "",
     title: str = "",
     up: tuple[float, float, float] = (0, 0, 1),
@@ -46,8 +46,8 @@ def plot(
         is not finite is drawn at the lower end. Or red, green and blue for each, from 0 to 1.
     points : SurfacePoints or array_like of int, optional
         Points, or vertices, to be marked.
-    paths : sequence of SurfacePoints or array_like of shape (k, 3)
-        Lines to be drawn, each from point to point.
+    paths : sequence of SurfacePoints or array_like of shape (k, 3), optional
+        Lines to be drawn, each from point to point; or one alone.
     label : str
         What the values are, and in which unit, beside the bar of colours.
     title : str
@@ -98,9 +98,10 @@ def plot(
     if points is not None:
         marker = {"size": POINT_SIZE, "color": POINT_COLOUR}
         figure.add_scatter3d(**_axes(as_points(mesh, points).positions), mode="markers", marker=marker, name="points")
-    if len(paths):
+    lines = _several(paths)
+    if lines:
         line = {"width": LINE_WIDTH, "color": POINT_COLOUR}
-        figure.add_scatter3d(**_axes(_broken_line(paths)), mode="lines", line=line, name="paths")
+        figure.add_scatter3d(**_axes(_broken_line(lines)), mode="lines", line=line, name="paths")
     hidden = {f"{axis}axis": {"visible": False} for axis in "xyz"}
     camera = {"up": dict(zip("xyz", _direction(up), strict=True))}
     figure.update_layout(title=title, scene={"aspectmode": "data", "camera": camera, **hidden})
@@ -113,6 +114,17 @@ def _direction(up: Any) -> list[float]:
     if found.shape != (3,) or not np.isfinite(found).all() or not found.any():
         raise BadArgument(f"up must be a direction of three numbers, as (0, 0, 1), not {up!r:.60}")
     return [float(x) for x in found]
+
+
+def _several(paths: Any) -> list[Any]:
+    """The paths in a list, one of them alone too."""
+    if paths is None:
+        return []
+    if isinstance(paths, SurfacePoints) or (isinstance(paths, np.ndarray) and paths.ndim == 2):
+        return [paths]
+    if not isinstance(paths, Iterable):
+        raise BadArgument(f"paths must be lines, each of positions of shape (k, 3), not {paths!r:.40}")
+    return list(paths)
 
 
 def _broken_line(paths: Sequence[SurfacePoints | ArrayLike]) -> Floats:

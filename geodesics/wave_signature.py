@@ -14,6 +14,7 @@ from geodesics.spectrum import Spectrum, as_spectrum
 # Range of the logarithms of eigenvalues: in a smaller one they are copies of one eigenvalue, as those of symmetric
 # surfaces are but for discretisation. Set by hand, far above the errors of eigenvalues (1e-8).
 NARROWEST = 1e-3
+LEAST_WIDTH = 1e-6  # steps between energies: a bound, so that no square of it vanishes
 
 
 def wave_kernel_signature(spectrum: Spectrum | Metric | Mesh, n_energies: int = 100, width: float = 7.0) -> Floats:
@@ -62,8 +63,10 @@ def wave_kernel_signature(spectrum: Spectrum | Metric | Mesh, n_energies: int = 
     spectrum = as_spectrum(spectrum)
     n_energies = whole_number(n_energies, "n_energies", 1)
     wide = real_numbers(width, "width")
-    if wide.ndim or not 0 < wide < np.inf:
-        raise BadArgument(f"width must be a positive number of steps between energies, not {width!r:.40}")
+    if wide.ndim or not LEAST_WIDTH <= wide < np.inf:
+        raise BadArgument(
+            f"width must be a number of steps between energies, at least {LEAST_WIDTH}, not {width!r:.40}"
+        )
     positive = spectrum.eigenvalues * spectrum.mass.sum() > 1e-6
     if np.count_nonzero(positive) < 2:
         raise BadArgument("the wave kernel signature needs at least two positive eigenvalues")

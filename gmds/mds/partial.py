@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from numbers import Real
 
 import numpy as np
 
 from geodesics import Distance, SurfacePoints
+from geodesics.arguments import whole_number
 from geodesics.arrays import Floats
 from geodesics.errors import BadArgument
 from gmds.mds.losses import LeastSquares
@@ -94,7 +96,7 @@ def solve_partial(
     Raises
     ------
     ValueError
-        For another share (E604), or as `Problem` does.
+        For another share or number (E604), or as `Problem` does.
     SolverError
         When a distance is not a number (E403).
 
@@ -120,8 +122,9 @@ def solve_partial(
     >>> bool(found.stresses[-1] <= found.stresses[0]), round(float(found.weights.mean()), 6)
     (True, 0.8)
     """
-    if isinstance(share, bool) or not isinstance(share, (int, float, np.number)) or not 0 < share <= 1:
+    if isinstance(share, bool) or not isinstance(share, Real) or not 0 < share <= 1:
         raise BadArgument(f"share must be a number above 0 and at most 1, not {share!r:.40}")
+    rounds, max_iterations = whole_number(rounds, "rounds", 1), whole_number(max_iterations, "max_iterations", 0)
     even = Problem(source_distance, source_points, target_distance)
     weights = np.full(len(even), float(share))
     misfit = misfits(even, start)

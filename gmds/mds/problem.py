@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from geodesics import Distance, SurfacePoints
 from geodesics.arrays import Bools, Floats, Integers
 from geodesics.caching import cached_property
+from geodesics.distance import as_distance
 from geodesics.errors import BadArgument
 from geodesics.tracing import barycentric_gradient
 from gmds.mds.chosen_pairs import chosen_pairs, lengths_of, pair_weights
@@ -79,6 +80,7 @@ class Problem:
         weights: ArrayLike | None = None,
         pairs: ArrayLike | None = None,
     ) -> None:
+        source_distance, target_distance = as_distance(source_distance), as_distance(target_distance)
         count = len(source_points)
         first, second = chosen_pairs(pairs, count)
         lengths = lengths_of(pairwise(source_distance, source_points), first, second)

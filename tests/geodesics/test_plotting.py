@@ -9,7 +9,7 @@ import pytest
 from generated_shapes import bumpy_sphere
 
 import geodesics
-from geodesics.errors import BadShape, MissingExtra
+from geodesics.errors import BadArgument, BadShape, MissingExtra
 
 MESH = bumpy_sphere(1)
 
@@ -66,3 +66,15 @@ def test_up_is_a_direction(up: object) -> None:
     pytest.importorskip("plotly")
     with pytest.raises(ValueError, match="E604: up"):
         geodesics.plot(MESH, up=up)  # type: ignore[arg-type]
+
+
+def test_one_path_may_stand_alone_and_what_is_none_is_named() -> None:
+    pytest.importorskip("plotly")
+    mesh = bumpy_sphere(2)
+    line = geodesics.SurfacePoints.at_vertices(mesh, [0, 5, 9])
+    for alone in (line, line.positions):
+        figure = geodesics.plot(mesh, paths=alone)
+        np.testing.assert_allclose(figure.data[-1].x[:3], line.positions[:, 0])
+    assert [trace.type for trace in geodesics.plot(mesh, paths=None).data] == ["mesh3d"]
+    with pytest.raises(BadArgument, match="paths must be lines"):
+        geodesics.plot(mesh, paths=5)  # type: ignore[arg-type]

@@ -192,7 +192,14 @@ def test_wave_kernel_of_repeated_eigenvalues_is_the_mean_of_the_squares():
 
 @pytest.mark.parametrize(
     "settings",
-    [{"n_energies": [0.01, 0.1]}, {"n_energies": 0}, {"n_energies": 2.5}, {"width": -1}, {"width": [1, 2]}],
+    [
+        {"n_energies": [0.01, 0.1]},
+        {"n_energies": 0},
+        {"n_energies": 2.5},
+        {"width": -1},
+        {"width": 1e-320},
+        {"width": [1, 2]},
+    ],
     ids=repr,
 )
 def test_energies_and_widths_that_are_none_are_refused(spectrum, settings):

@@ -60,7 +60,21 @@ def test_the_sum_falls_and_all_is_asked_for_where_all_corresponds() -> None:
     np.testing.assert_allclose(whole.weights, 1, atol=1e-9)
 
 
-@pytest.mark.parametrize("share", [0, -0.5, 1.5, float("nan"), True, "half"], ids=repr)
+@pytest.mark.parametrize("share", [0, -0.5, 1.5, float("nan"), True, "half", 0.5 + 0j], ids=repr)
 def test_shares_that_are_none(share: object) -> None:
     with pytest.raises(ValueError, match="share must be a number"):
         gmds.solve_partial(DISTANCE, SAMPLES, DISTANCE, SAMPLES, share=share)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    "settings", [{"rounds": 0}, {"rounds": "2"}, {"rounds": 2.5}, {"max_iterations": "a"}, {"max_iterations": -1}]
+)
+def test_counts_that_are_none(settings: dict[str, object]) -> None:
+    with pytest.raises(ValueError, match=r"E604.*must be at least .*, and a whole number"):
+        gmds.solve_partial(DISTANCE, SAMPLES, DISTANCE, SAMPLES, progress=lambda *_: None, **settings)  # type: ignore[arg-type]
+
+
+def test_a_mesh_is_no_distance() -> None:
+    for ours, theirs in ((MESH, DISTANCE), (DISTANCE, MESH)):
+        with pytest.raises(TypeError, match="a distance is expected, not a mesh"):
+            gmds.solve_partial(ours, SAMPLES, theirs, SAMPLES)
