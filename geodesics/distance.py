@@ -57,7 +57,7 @@ def as_distance(distance: Any) -> Distance:
     """The distance that it is. Raises `TypeError` that says how to make one of a mesh, a metric or a spectrum."""
     if hasattr(distance, "mesh") and callable(getattr(distance, "field", None)):
         return distance  # type: ignore[no-any-return]
-    kind = "a mesh" if isinstance(distance, Mesh) else type(distance).__name__  # of a kind of its own, maybe
+    kind = "Mesh" if isinstance(distance, Mesh) else type(distance).__name__  # which may be one of a kind of its own
     raise TypeError(f"a distance is expected, not {kind}; for example geodesics.GeodesicDistance(mesh)")
 
 

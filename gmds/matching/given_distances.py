@@ -16,6 +16,8 @@ from gmds.mds.pair_distances import pairwise
 from gmds.mds.problem import Problem
 from gmds.mds.solver import Solution
 from gmds.mds.tabulated import TabulatedDistance
+from gmds.registration.register import assessed
+from gmds.registration.settings import FULL
 from gmds.registration.thin_plate import ThinPlate
 from gmds.spectral.refinement import ROUNDS
 from gmds.surface.measured import Surface, view_of
@@ -82,6 +84,8 @@ def placed_in_given(
         solution = solve_by_ladder(problem, points[samples], now, max_iterations=ITERATIONS)
         placed = pair.with_landmarks(samples, solution.points)
         points = pair.refiner.continued(*placed, points)
+    if assessed(*pair.full, points.positions, FULL).residuals.is_congruence:
+        return points, solution  # nothing is smoother
     plate = ThinPlate(*pair.full)
     points = plate.through(*placed, points)
     for _ in range(SMOOTHED):

@@ -99,8 +99,10 @@ def test_where_a_part_grew_the_default_does_better_than_the_metric_of_space() ->
     truth = gmds.shapes.truth(source, target)
     regular = gmds.match(source, target, distance=lambda m: CommuteTimeDistance(eigenpairs(embedded(m), 60)))
     invariant = gmds.geodesic_error(gmds.match(source, target), truth).mean()
-    assert 100 * invariant < 6
-    assert invariant < 0.5 * gmds.geodesic_error(regular, truth).mean()
+    assert 100 * invariant < 1.6
+    assert (
+        invariant < 0.8 * gmds.geodesic_error(regular, truth).mean()
+    )  # which knows metrics of curvature since it starts there
 
 
 def test_orientation_chooses_among_the_symmetries_of_a_surface() -> None:

@@ -76,5 +76,5 @@ def test_counts_that_are_none(settings: dict[str, object]) -> None:
 
 def test_a_mesh_is_no_distance() -> None:
     for ours, theirs in ((MESH, DISTANCE), (DISTANCE, MESH)):
-        with pytest.raises(TypeError, match="a distance is expected, not a mesh"):
+        with pytest.raises(TypeError, match="a distance is expected, not Mesh"):
             gmds.solve_partial(ours, SAMPLES, theirs, SAMPLES)
