@@ -25,7 +25,7 @@ import gmds
 from benchmarks.accuracy.runs import code_version
 from benchmarks.markdown import table
 from benchmarks.places import RESULTS
-from benchmarks.stability.perturbed import SMALL, pairs
+from benchmarks.stability.perturbed import HEAD, figures, pairs
 from geodesics import SurfacePoints, read_mesh
 from gmds.benchmarking.pairs import Pair
 from gmds.benchmarking.run import turned
@@ -83,18 +83,13 @@ def page(paths: Sequence[Path]) -> str:
     lines = ["# The same pair elsewhere", ""]
     lines += [f"`python -m benchmarks.stability.elsewhere` at {first['code']}; the script says how.", ""]
     lines += [f"First: {first['environment']}.", ""]
-    head = ("set", "pairs", "mean move, median", "worst", f"below {SMALL}", "error x100 changes by, median", "most")
     for other in others:
         rows: dict[str, list[tuple[float, float]]] = {}
         for name, pair in pairs(1):
             if f"{pair.name}/face" in first and f"{pair.name}/face" in other:
                 rows.setdefault(name, []).append(moved(pair, first, other))
-        found = []
-        for name, values in rows.items():
-            moves, changes = np.array(values).T
-            figures = f"{np.median(moves):.4f}", f"{moves.max():.4f}", f"{int((moves < SMALL).sum())} of {len(moves)}"
-            found.append((name, len(moves), *figures, f"{np.median(changes):.2f}", f"{changes.max():.2f}"))
-        lines += [f"## {other['environment']}", "", *table(head, found)]
+        found = [figures(name, *np.array(values).T) for name, values in rows.items()]
+        lines += [f"## {other['environment']}", "", *table(HEAD, found)]
     return "\n".join(lines)
 
 

@@ -25,7 +25,7 @@ from benchmarks.accuracy.runs import ONE_THREAD, code_version
 from benchmarks.markdown import table
 from benchmarks.places import RESULTS
 from geodesics import Mesh, SurfacePoints, read_mesh
-from geodesics.arrays import Integers
+from geodesics.arrays import Floats, Integers
 from gmds.benchmarking.pairs import Pair
 from gmds.benchmarking.run import turned
 from gmds.evaluation import geodesic_error, protocol_subset
@@ -94,21 +94,28 @@ def row(name: str, pair: Pair, version: str) -> dict[str, Any]:
     return found
 
 
+HEAD = ("set", "pairs", "mean move, median", "worst", f"below {SMALL}", "error x100 changes by, median", "most")
+
+
+def figures(name: str, moves: Floats, changes: Floats) -> tuple[Any, ...]:
+    """A row of the table: the pairs of a set, how far each map moved and how much its error changed."""
+    few = f"{int((moves < SMALL).sum())} of {len(moves)}"
+    moved = f"{np.median(moves):.4f}", f"{moves.max():.4f}", few
+    return name, len(moves), *moved, f"{np.median(changes):.2f}", f"{changes.max():.2f}"
+
+
 def page(rows: Sequence[dict[str, Any]], version: str) -> str:
     """A table of all sets."""
     command = f"`python -m benchmarks.stability.perturbed` at {version}; the script says how."
     lines = ["# The same pair again", "", command, ""]
-    head = ("set", "pairs", "mean move, median", "worst", f"below {SMALL}", "error x100 changes by, median", "most")
     for way in WAYS:
         found = []
         for name in dict.fromkeys(one["set"] for one in rows):
             some = [one for one in rows if one["set"] == name]
             moves = np.array([float(one[f"{way}_move"]) for one in some])
             changes = np.array([abs(float(one[f"{way}_error"]) - float(one["error"])) for one in some])
-            few = int((moves < SMALL).sum())
-            figures = f"{np.median(moves):.4f}", f"{moves.max():.4f}", f"{few} of {len(some)}"
-            found.append((name, len(some), *figures, f"{np.median(changes):.2f}", f"{changes.max():.2f}"))
-        lines += [f"## {way.capitalize()}", "", *table(head, found)]
+            found.append(figures(name, moves, changes))
+        lines += [f"## {way.capitalize()}", "", *table(HEAD, found)]
     return "\n".join(lines)
 
 

@@ -129,13 +129,15 @@ def solve_partial(
     weights = np.full(len(even), float(share))
     misfit = misfits(even, start)
     stresses, points = [float(weights @ misfit @ weights / 2)], start
-    for number in range(max(1, rounds)):
+    for number in range(rounds):
         held = np.maximum(weights, LEAST_WEIGHT)
         weighed = Problem(source_distance, source_points, target_distance, weights=held)
         found = solve(weighed, points, LeastSquares(), max_iterations=max_iterations)
         moved = misfits(even, found.points)
         if weights @ moved @ weights <= weights @ misfit @ weights:  # but for the least weight it always is
             points, misfit = found.points, moved
+        else:
+            found = solve(weighed, points, LeastSquares(), max_iterations=0)  # as they lay
         weights = least_weights(misfit, weights, share)
         stresses.append(float(weights @ misfit @ weights / 2))
         if progress is not None:

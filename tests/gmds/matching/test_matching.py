@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Literal
+from typing import Any, Literal
 
 import generated_shapes as shapes
 import numpy as np
@@ -24,6 +24,8 @@ from geodesics import (
 from gmds import Correspondence, Huber, LeastSquares, Minimax
 from gmds.errors import LandmarkError, SampleCountError
 from gmds.maps.point_map import MatchStatus
+from gmds.matching import attempts
+from gmds.matching.steps import rounds_of
 from gmds.mds.losses import Loss, Power
 
 LOBED = shapes.ellipsoid(2, (1.0, 1.4, 2.0))
@@ -93,16 +95,21 @@ def test_every_distance_matches_a_turned_copy(name: str) -> None:
     assert off(answer, target.vertices) < 1e-6
 
 
-def test_where_a_part_grew_the_default_does_better_than_the_metric_of_space() -> None:
+def test_where_a_part_grew_the_default_does_better_than_the_metric_of_space(monkeypatch: pytest.MonkeyPatch) -> None:
+    """That metric alone, proposals included: else metrics of curvature have their say where it does not decide."""
+
+    def in_one_round(*of: Any) -> Any:
+        rounds, given = rounds_of(*of)
+        return rounds[:1], given
+
     source = animal(n_vertices=900)
     target = gmds.shapes.quadruped("walk", head_scale=2.0, seed=1, n_vertices=900)
     truth = gmds.shapes.truth(source, target)
-    regular = gmds.match(source, target, distance=lambda m: CommuteTimeDistance(eigenpairs(embedded(m), 60)))
     invariant = gmds.geodesic_error(gmds.match(source, target), truth).mean()
+    monkeypatch.setattr(attempts, "rounds_of", in_one_round)
+    regular = gmds.match(source, target, distance=lambda m: CommuteTimeDistance(eigenpairs(embedded(m), 60)))
     assert 100 * invariant < 1.6
-    assert (
-        invariant < 0.8 * gmds.geodesic_error(regular, truth).mean()
-    )  # which knows metrics of curvature since it starts there
+    assert invariant < 0.5 * gmds.geodesic_error(regular, truth).mean()
 
 
 def test_orientation_chooses_among_the_symmetries_of_a_surface() -> None:

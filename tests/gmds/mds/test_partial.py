@@ -11,6 +11,7 @@ from hypothesis.extra.numpy import arrays
 
 import gmds
 from geodesics import CommuteTimeDistance, SurfacePoints, eigenpairs, farthest_point_sampling
+from gmds.mds import partial
 from gmds.mds.partial import least_weights, on_simplex
 
 MESH = shapes.bumpy_sphere(3)
@@ -78,3 +79,15 @@ def test_a_mesh_is_no_distance() -> None:
     for ours, theirs in ((MESH, DISTANCE), (DISTANCE, MESH)):
         with pytest.raises(TypeError, match="a distance is expected, not Mesh"):
             gmds.solve_partial(ours, SAMPLES, theirs, SAMPLES)
+
+
+def test_a_round_that_would_raise_the_sum_leaves_the_samples_where_they_were(monkeypatch: pytest.MonkeyPatch) -> None:
+    there = SurfacePoints.at_vertices(MESH, np.roll(SAMPLES.nearest_vertices(), 7))
+
+    def worse(problem: gmds.Problem, start: SurfacePoints, *_: object, max_iterations: int) -> gmds.Solution:
+        return gmds.solve(problem, there if max_iterations else start, max_iterations=0)
+
+    monkeypatch.setattr(partial, "solve", worse)
+    found = gmds.solve_partial(DISTANCE, SAMPLES, DISTANCE, SAMPLES, share=1, rounds=1)
+    np.testing.assert_array_equal(found.solution.points.positions, SAMPLES.positions)
+    assert found.stresses == pytest.approx((0, 0), abs=1e-12)
