@@ -13,8 +13,9 @@ const about = (meaning) => {
 const MOST_PINS = 20;
 const SQUARES = 14; // from one end of the target to the other
 
-class Page {
+class Page extends Telling {
   constructor(data) {
+    super();
     this.data = data;
     this.surfaces = [data.surfaces[0], data.surfaces[1], data.surfaces[0]];
     this.scenes = [0, 1].map((side) => new Scene(at(`panel-${side}`), this.surfaces[side]));
@@ -59,7 +60,7 @@ class Page {
     const { mode } = this;
     if (mode.key === "match") return side === 0 ? map.colours : this.covered(this.data.colours, map);
     const values = map.values[mode.key];
-    if (!values) return new Uint8Array(this.surfaces[side].vertices.length).fill(158);
+    if (!values || this.dots(map)) return Uint8Array.from({ length: this.surfaces[side].vertices.length }, (_, i) => this.data.missing[i % 3]);
     const rgb = new Uint8Array(3 * values[side].length);
     values[side].forEach((value, i) => rgb.set(mode.swatches ? mode.swatches[value] : this.ramp(value, mode), 3 * i));
     return rgb;
@@ -95,11 +96,16 @@ class Page {
       if (!scene || !map) return;
       if (side === 2) scene.paint(this.colours(0, map));
       scene.give("place", this.images(map));
-      const dots = this.mode.key === "error" && map.dots ? map.dots : { position: [], error: [] };
+      const dots = this.dots(map) || { position: [], error: [] };
       scene.give("dot", Float32Array.from(dots.position));
       scene.give("dotColour", Uint8Array.from(Array.from(dots.error, (e) => Array.from(this.ramp(e, this.mode))).flat()));
     });
     this.morph();
+  }
+
+  // the few points whose truth is known, where their errors are shown: there alone is a colour
+  dots(map) {
+    return this.mode.key === "error" && map.dots;
   }
 
   // where the vertices of the source go, as the target is drawn
@@ -114,60 +120,6 @@ class Page {
     const own = this.surfaces[0].vertices;
     const goal = this.images(this.map);
     if (share || scene.positions !== own) scene.placeAt(share ? own.map((c, i) => (1 - share) * c + share * goal[i]) : own);
-  }
-
-  legend() {
-    const { map, mode } = this;
-    at("help").textContent = mode.help;
-    at("note").textContent = map.note;
-    at("legend-ramp").hidden = !mode.high;
-    at("legend-valid").hidden = !mode.swatches;
-    at("legend-match").hidden = mode.key !== "match";
-    at("fit-choice").style.visibility = mode.high && mode.key in map.tops ? "" : "hidden";
-    at("largest").textContent = mode.reversed ? "Lowest" : "Largest";
-    at("largest").style.visibility = mode.high ? "" : "hidden";
-    if (!mode.high) return;
-    const top = this.top(mode);
-    at("legend-label").replaceChildren(mode.unit, about(mode.help));
-    at("low").textContent = mode.signed ? figureShort(-top) : "0";
-    at("high").textContent = `${figureShort(top)}${map.largest[mode.key] > top * 1.0001 ? " and more" : ""}`;
-    at("ramp").classList.toggle("reversed", Boolean(mode.reversed));
-    at("ramp").classList.toggle("signed", Boolean(mode.signed));
-  }
-
-  // the badge, the figures and the advice are those of the map that is shown
-  tell({ told } = this.map) {
-    at("badge").className = `badge ${told.badge}`;
-    at("badge").textContent = told.verdict;
-    at("status").textContent = told.status;
-    at("next").textContent = told.next;
-    at("cards").replaceChildren(...told.cards.map(([value, name, word]) =>
-      made("li", made("b", value), made("span", name, ...(word ? [about(this.data.words[word])] : [])))));
-    at("facts").replaceChildren(...told.facts.map(([name, value]) => made("tr", made("th", name), made("td", value))));
-  }
-
-  // as much room for these words as any map needs, so that nothing jumps when another is shown
-  keepRoom() {
-    const header = document.querySelector("header");
-    header.style.minHeight = "";
-    const heights = this.data.maps.map((map) => { this.tell(map); return header.offsetHeight; });
-    header.style.minHeight = `${Math.max(...heights)}px`;
-    this.tell();
-  }
-
-  drawCharts() {
-    const { map, mode, data } = this;
-    const spread = map.histograms[mode.key];
-    at("histogram-part").hidden = !spread;
-    at("curve-part").hidden = !map.curve;
-    if (spread) {
-      const high = this.top(mode);
-      at("histogram-title").textContent = `How the ${mode.label.toLowerCase()} is spread`;
-      drawHistogram(at("histogram"), { ...mode, high, counts: spread[high === mode.high ? 0 : 1] }, (share) => `rgb(${Array.from(this.ramp(share * high, mode))})`);
-    }
-    const known = data.maps.filter((one) => one.curve);
-    const curves = known.map((one) => ({ name: one.name, share: one.curve }));
-    if (map.curve) drawCurves(at("curve"), data.thresholds, curves, known.indexOf(map));
   }
 
   partner(side, vertex, map = this.map) {
@@ -188,7 +140,7 @@ class Page {
     if (!partner) return `Vertex ${number} of ${here.name} has no counterpart on ${there.name}.`;
     const hidden = this.scenes[1 - side].place(partner.position).hidden;
     const values = this.data.modes.filter((mode) => mode.high && this.map.values[mode.key])
-      .map((mode) => ` ${mode.label} ${figure(this.map.values[mode.key][side][vertex])}.`).join("");
+      .map((mode) => ` ${mode.label}${mode.key === "error" && this.map.dots ? " at the nearest known point" : ""} ${figure(this.map.values[mode.key][side][vertex])}.`).join("");
     return `Vertex ${number} of ${here.name} goes to face ${partner.face} of ${there.name}, nearest vertex ${partner.vertex}, ` +
       `weights ${partner.weights.map((w) => w.toFixed(3)).join(", ")}.${values}${hidden ? " It is on the far side (dashed)." : ""}`;
   }

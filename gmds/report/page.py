@@ -33,6 +33,7 @@ SCRIPTS = (
     "scene.js",
     "charts.js",
     "marks.js",
+    "telling.js",
     "page.js",
     "finding.js",
     "out.js",

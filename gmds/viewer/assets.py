@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from importlib.resources import files
 
-SCRIPTS = ("server.js", "brush.js", "work.js")
+SCRIPTS = ("server.js", "brush.js", "asking.js", "work.js")
 
 
 def _text(name: str) -> str:

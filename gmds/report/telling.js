@@ -1,0 +1,58 @@
+// What stands about the surfaces: badge, figures and advice of the map that is shown, its scale, its charts.
+"use strict";
+
+class Telling {
+  legend() {
+    const { map, mode } = this;
+    at("help").textContent = mode.help;
+    at("note").textContent = map.note;
+    at("legend-ramp").hidden = !mode.high;
+    at("legend-valid").hidden = !mode.swatches;
+    at("legend-match").hidden = mode.key !== "match";
+    at("fit-choice").style.visibility = mode.high && mode.key in map.tops ? "" : "hidden";
+    at("largest").textContent = mode.reversed ? "Lowest" : "Largest";
+    at("largest").style.visibility = mode.high ? "" : "hidden";
+    if (!mode.high) return;
+    const top = this.top(mode);
+    at("legend-label").replaceChildren(mode.unit, about(mode.help));
+    at("low").textContent = mode.signed ? figureShort(-top) : "0";
+    at("high").textContent = `${figureShort(top)}${map.largest[mode.key] > top * 1.0001 ? " and more" : ""}`;
+    at("ramp").classList.toggle("reversed", Boolean(mode.reversed));
+    at("ramp").classList.toggle("signed", Boolean(mode.signed));
+  }
+
+  // the badge, the figures and the advice are those of the map that is shown
+  tell({ told } = this.map) {
+    at("badge").className = `badge ${told.badge}`;
+    at("badge").textContent = told.verdict;
+    at("status").textContent = told.status;
+    at("next").textContent = told.next;
+    at("cards").replaceChildren(...told.cards.map(([value, name, word]) =>
+      made("li", made("b", value), made("span", name, ...(word ? [about(this.data.words[word])] : [])))));
+    at("facts").replaceChildren(...told.facts.map(([name, value]) => made("tr", made("th", name), made("td", value))));
+  }
+
+  // as much room for these words as any map needs, so that nothing jumps when another is shown
+  keepRoom() {
+    const header = document.querySelector("header");
+    header.style.minHeight = "";
+    const heights = this.data.maps.map((map) => { this.tell(map); return header.offsetHeight; });
+    header.style.minHeight = `${Math.max(...heights)}px`;
+    this.tell();
+  }
+
+  drawCharts() {
+    const { map, mode, data } = this;
+    const spread = map.histograms[mode.key];
+    at("histogram-part").hidden = !spread;
+    at("curve-part").hidden = !map.curve;
+    if (spread) {
+      const high = this.top(mode);
+      at("histogram-title").textContent = `How the ${mode.label.toLowerCase()} is spread`;
+      drawHistogram(at("histogram"), { ...mode, high, counts: spread[high === mode.high ? 0 : 1] }, (share) => `rgb(${Array.from(this.ramp(share * high, mode))})`);
+    }
+    const known = data.maps.filter((one) => one.curve);
+    const curves = known.map((one) => ({ name: one.name, share: one.curve }));
+    if (map.curve) drawCurves(at("curve"), data.thresholds, curves, known.indexOf(map));
+  }
+}
