@@ -37,4 +37,6 @@ def write_asymmetry(found: Asymmetry, names: Sequence[str], folder: Path) -> Non
     shown = [("directional", found.symmetric, found.directional)]
     if np.isfinite(found.fluctuating).any():
         shown.append(("fluctuating (s.d.)", found.symmetric, found.fluctuating))
-    write_values(folder / "asymmetry.png", shown, signed=True, label="outward / √area", pixels=460, title="Asymmetry")
+    signed = [True, False][: len(shown)]  # a standard deviation has no sign
+    path, label = folder / "asymmetry.png", "outward / √area"
+    write_values(path, shown, signed=signed, label=label, pixels=460, title="Asymmetry")

@@ -21,8 +21,12 @@ COLUMNS = ["what", "r_squared", "f", "p", "t_squared", "components", "p_t_square
 Tests = Mapping[str, tuple[ShapeTest, HotellingTest]]
 
 
-def write_tests(tests: Tests, points: PointTests | None, mean: Mesh, folder: Path) -> None:
+def write_tests(
+    tests: Tests, points: PointTests | None, mean: Mesh, folder: Path, slope: str = "slope of growth"
+) -> None:
     """Write test.csv, and for two groups or a covariate points.csv and points.png, each atomically.
+
+    `slope` says what the slope of each point is, beside the bar of the picture.
 
     Raises `MissingExtra` (E602) without the extra `viz`, `OSError`.
     """
@@ -41,11 +45,11 @@ def write_tests(tests: Tests, points: PointTests | None, mean: Mesh, folder: Pat
     write_table(folder / "points.csv", ["vertex", "slope", "low", "high", "p", "q"], table)
     found = np.where(points.q < DISCOVERY, points.slope, np.nan)
     shown = [("slope of growth", mean, points.slope)]
-    if np.isfinite(found).any():
+    any_found = np.isfinite(found).any()
+    if any_found:
         shown.append((f"where q < {DISCOVERY}", mean, found))
-    write_values(
-        folder / "points.png", shown, signed=True, label="log of the change of length", pixels=460, title="Growth"
-    )
+    title = "Growth" if any_found else f"Growth: nowhere is q < {DISCOVERY}"
+    write_values(folder / "points.png", shown, signed=True, label=slope, pixels=460, title=title)
 
 
 def write_growth(growth: Floats, names: Sequence[str], folder: Path) -> None:

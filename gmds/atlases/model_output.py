@@ -71,6 +71,7 @@ def _write_picture(model: ShapeModel, path: Path, shown: int) -> None:
     for number in range(shown):
         values, share = outward(model, number), model.explained_variance_ratio_[number]
         for sign in (-1, 1):
-            caption = f"component {number + 1} ({share:.0%}), {sign * DEVIATIONS:+g} s.d."
+            caption = f"component {number + 1} ({share:.1%}), {sign * DEVIATIONS:+g} s.d."
             panels.append((caption, moved_by(model, number, sign * DEVIATIONS), sign * values))
-    write_values(path, panels, signed=True, label="outward / √area", pixels=340, title="Outward movement by 1 s.d.")
+    title = "Outward movement by 1 s.d."
+    write_values(path, panels, signed=True, label="outward / √area", pixels=420, columns=2, title=title)

@@ -28,6 +28,7 @@ FORMATS: dict[str, dict[str, Any]] = {
     ".pdf": {"metadata": {"CreationDate": None}},
 }
 BAR = 88  # pixels for a colour bar, its numbers and its label; set by hand
+HEAD, TITLE = 34, 26  # pixels for captions above a row of views, and for the title; set by hand
 DOTS = 100  # per inch: matplotlib measures in inches, and texts are as large beside the views as at that resolution
 
 
@@ -45,35 +46,59 @@ class Panel(NamedTuple):
     marks: Sequence[Mark] = ()
 
 
-def composed(panels: Sequence[Panel], images: Sequence[Floats], title: str = "") -> Any:
-    """A matplotlib figure of the panels side by side, as they were drawn. Raises `MissingExtra` without `viz`."""
+def composed(panels: Sequence[Panel], images: Sequence[Floats], title: str = "", columns: int | None = None) -> Any:
+    """A matplotlib figure of the panels side by side, so many in a row, as they were drawn.
+
+    Neighbours with the same colour bar have one, beside the last of them. Raises `MissingExtra` without `viz`.
+    """
     try:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
     except ImportError as error:
         raise MissingExtra(f"a picture needs matplotlib; install it with: {how_to_install('viz')}") from error
 
-    boxes = [image.shape[1] + (BAR if panel.limits else 0) for panel, image in zip(panels, images, strict=True)]
-    width, tallest, head = sum(boxes), max(image.shape[0] for image in images), 60 if title else 34
-    height = tallest + head
+    spots = list(zip(panels, images, strict=True))
+    many = columns or len(spots)
+    rows = [_Row(spots[i : i + many]) for i in range(0, len(spots), many)]
+    width, height = max(row.width for row in rows), sum(row.height for row in rows) + (TITLE if title else 0)
     figure = Figure(figsize=(width / DOTS, height / DOTS), dpi=DOTS)
     FigureCanvasAgg(figure)
-    left = 0
-    for panel, image, box in zip(panels, images, boxes, strict=True):
-        rows, columns = image.shape[:2]
-        bottom = (tallest - rows) // 2
-        axis = figure.add_axes((left / width, bottom / height, columns / width, rows / height))
-        axis.imshow(image, interpolation="none", aspect="auto")
-        axis.set_axis_off()
-        write_names(axis, panel.marks, columns)
-        where = ((left + columns / 2) / width, (tallest + 8) / height)
-        figure.text(*where, panel.caption, ha="center", va="bottom", parse_math=False)
-        if panel.limits is not None:
-            bar = figure.add_axes(((left + columns) / width, 0.2, 14 / width, 0.5))
-            _colour_bar(figure, bar, panel)
-        left += box
+    top = height - (TITLE if title else 0)
+    for row in rows:
+        top -= row.height
+        row.draw(figure, top, (width, height))
     figure.text(0.5, 1 - 6 / height, title, ha="center", va="top", size="large", parse_math=False)
     return figure
+
+
+class _Row:
+    """Panels in a row, with what they were drawn as; where two have the same bar, the first goes without."""
+
+    def __init__(self, spots: Sequence[tuple[Panel, Floats]]) -> None:
+        self.spots = spots
+        bars = [(panel.limits, panel.label, panel.signed) for panel, _ in spots]
+        self.has_bar = [bar[0] is not None and bar not in bars[i + 1 : i + 2] for i, bar in enumerate(bars)]
+        self.tallest = max(image.shape[0] for _, image in spots)
+        self.height = self.tallest + HEAD
+        self.width = sum(image.shape[1] for _, image in spots) + BAR * sum(self.has_bar)
+
+    def draw(self, figure: Any, under: int, size: tuple[int, int]) -> None:
+        """Draw them `under` pixels above the lower end of a figure of that size."""
+        (width, height), left = size, 0
+        for (panel, image), with_bar in zip(self.spots, self.has_bar, strict=True):
+            rows, columns = image.shape[:2]
+            bottom = under + (self.tallest - rows) // 2
+            axis = figure.add_axes((left / width, bottom / height, columns / width, rows / height))
+            axis.imshow(image, interpolation="none", aspect="auto")
+            axis.set_axis_off()
+            write_names(axis, panel.marks, columns)
+            where = ((left + columns / 2) / width, (under + self.tallest + 8) / height)
+            figure.text(*where, panel.caption, ha="center", va="bottom", parse_math=False)
+            left += columns
+            if with_bar:
+                place = (left / width, (under + 0.2 * self.height) / height, 14 / width, 0.5 * self.height / height)
+                _colour_bar(figure, figure.add_axes(place), panel)
+                left += BAR
 
 
 @contextlib.contextmanager

@@ -12,6 +12,7 @@ from geodesics.arrays import Bools, Floats, Integers
 from gmds.pictures.software import OVERSAMPLING, Shot
 
 CLOSE = 0.02  # of the size of a surface by which a point may lie behind what covers it, and is seen all the same
+HALO = 2.5  # points of white about the letters of a name; set by hand
 LETTER, AWAY = 7, 6  # pixels of a view: of a letter at most, and from a point to its name, which stands outside
 
 
@@ -37,11 +38,15 @@ def spots(shot: Shot, places: Floats) -> Floats:
 
 
 def write_names(axis: Any, marks: Iterable[Mark], wide: float, size: float = 8) -> None:
-    """Write names into a view that is so wide, in letters of `size` points."""
+    """Write names into a view that is so wide, in letters of `size` points that stand out from what is under them."""
+    from matplotlib.patheffects import withStroke
+
+    halo = [withStroke(linewidth=HALO, foreground="white")]
     for name, x, y, ink in marks:
         left = leftwards(x, name, wide)
         at = x - AWAY if left else x + AWAY
-        axis.text(at, y - AWAY, name, fontsize=size, color=ink, parse_math=False, ha="right" if left else "left")
+        side = "right" if left else "left"
+        axis.text(at, y - AWAY, name, fontsize=size, color=ink, parse_math=False, ha=side, path_effects=halo)
 
 
 def leftwards(x: float, name: str, wide: float) -> bool:

@@ -31,12 +31,13 @@ def write_values(  # noqa: PLR0913 - likewise
     labels: bool = False,
     marked: Sequence[ArrayLike] | None = None,
     label: str = "",
-    signed: bool = False,
+    signed: bool | Sequence[bool] = False,
     isolines: bool = False,
     title: str = "",
     up: Direction = (0, 0, 1),
     views: Sequence[Floats] | None = None,
     pixels: int = 520,
+    columns: int | None = None,
     renderer: Renderer | None = None,
 ) -> str:
     """A picture of surfaces side by side, coloured by values on their vertices.
@@ -53,12 +54,15 @@ def write_values(  # noqa: PLR0913 - likewise
         Vertices of each surface that get a little ball: sources of a distance, samples.
     label : str
         What the values are, and in which unit, beside the bar.
-    signed : bool
-        Below 0 is one colour, above it another, 0 is white and in the middle of the range.
+    signed : bool, or one for each surface
+        Below 0 is one colour, above it another, 0 is white and in the middle of the range. Surfaces that are and those
+        that are not have a range each.
     isolines : bool
         Draws lines where values are round.
     views : sequence of arrays of shape (3, 3), optional
         Cameras, in place of what is up, as `gmds.pictures.camera.broadside` makes them.
+    columns : int, optional
+        How many surfaces stand in a row; all of them, unless given.
 
     Returns
     -------
@@ -70,16 +74,13 @@ def write_values(  # noqa: PLR0913 - likewise
     ValueError
         When there is not one value for each vertex.
     """
-    everything = np.concatenate([per_vertex(values, mesh.n_vertices) for _, mesh, values in surfaces])
-    finite = everything[np.isfinite(everything)]
-    limits = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 1.0)
-    if signed:
-        reach = max(map(abs, limits))
-        limits = (-reach, reach)
+    given = [per_vertex(values, mesh.n_vertices) for _, mesh, values in surfaces]
+    signs = [signed] * len(given) if isinstance(signed, bool) else list(signed)
+    ranges = {sign: _limits([v for v, s in zip(given, signs, strict=True) if s == sign], sign) for sign in set(signs)}
     panels: list[Panel] = []
-    for i, (caption, mesh, values) in enumerate(surfaces):
-        v = np.asarray(values, dtype=np.float64)
-        shape, colours = mesh, label_colours(v) if labels else coloured(v, limits, signed=signed)
+    for i, ((caption, mesh, _), v) in enumerate(zip(surfaces, given, strict=True)):
+        limits = ranges[signs[i]]
+        shape, colours = mesh, label_colours(v) if labels else coloured(v, limits, signed=signs[i])
         if labels:
             shape, colours = lines.with_lines(shape, colours, lines.borders(mesh, v), LINE)
         elif isolines:
@@ -90,8 +91,17 @@ def write_values(  # noqa: PLR0913 - likewise
             shape, colours = with_balls(shape, colours, mesh.vertices[rows], np.array(INK))
         view = broadside(mesh, up) if views is None else views[i]
         shot = Shot(shape, colours, view, pixels, sharp=labels)
-        panels.append(Panel(caption, shot, None if labels else limits, label, signed))
-    return write_panels(path, panels, title, renderer)
+        panels.append(Panel(caption, shot, None if labels else limits, label, signs[i]))
+    return write_panels(path, panels, title, renderer, columns)
+
+
+def _limits(values: Sequence[Floats], signed: bool) -> tuple[float, float]:
+    """From the least to the largest finite value; as far below 0 as above where they are signed."""
+    everything = np.concatenate(values)
+    finite = everything[np.isfinite(everything)]
+    low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 1.0)
+    reach = max(abs(low), abs(high))
+    return (-reach, reach) if signed else (low, high)
 
 
 def write_coloured(

@@ -16,13 +16,22 @@ from gmds.pictures.software import Shot, software
 Renderer = Callable[[Sequence[Shot]], list[Floats]]
 
 
-def write_panels(path: str | os.PathLike[str], panels: Sequence[Panel], title: str, renderer: Renderer | None) -> str:
-    """Write the picture; why it was not drawn by the first renderer, or nothing. Raises as `write_picture` does."""
+def write_panels(
+    path: str | os.PathLike[str],
+    panels: Sequence[Panel],
+    title: str,
+    renderer: Renderer | None,
+    columns: int | None = None,
+) -> str:
+    """Write the picture, with so many panels a row; why it was not drawn by the first renderer, or nothing.
+
+    Raises as `write_picture` does.
+    """
     if (ending := Path(path).suffix.lower()) not in FORMATS:
         raise PictureFormat(f"{path}: a picture ends in {', '.join(FORMATS)}, not {ending or 'nothing'}")
     images, why = _drawn([panel.shot for panel in panels], renderer)
     with atomic_write(path) as stream:
-        stream.write(encoded(composed(panels, images, title), ending))
+        stream.write(encoded(composed(panels, images, title, columns), ending))
     return why
 
 

@@ -53,9 +53,9 @@ def command(
 
     farthest:COUNT stands for that many vertices, each the farthest from those before it; a file of landmarks for the
     vertices nearest to them, and columns of a .csv have their names then.
-    A .npz holds `distance`, a row for every vertex given, and `points`, these vertices; a .csv has a line for every
-    vertex of the mesh. What cannot be reached is infinitely far. The picture shows the distance to the nearest of the
-    vertices given. Metrics and diffusion time are those of
+    A .npz holds `distance`, a row for every vertex given, `points`, these vertices, and `names`, what landmarks are
+    called and else the numbers; a .csv has a line for every vertex of the mesh. What cannot be reached is infinitely
+    far. The picture shows the distance to the nearest of the vertices given. Metrics and diffusion time are those of
     `gmds match --metric --distance`.
     """
     import time
@@ -74,11 +74,12 @@ def command(
         named = [_vertices(text, measured, mesh) for text in starts]
         points = np.array([vertex for one in named for vertex in one.values()], dtype=np.int64)
         field = measured.field(SurfacePoints.at_vertices(surface, points))
-    titles = [f"from_{name}" for one in named for name in one]
+    names = [name for one in named for name in one]
+    titles = [f"from_{name}" for name in names]
     if len(set(titles)) < len(titles):  # landmarks of two files may be called the same
         titles = [f"{title}_{vertex}" for title, vertex in zip(titles, points, strict=True)]
     columns = dict(zip(titles, field, strict=True))
-    write_field(output, {"distance": field, "points": points}, columns)
+    write_field(output, {"distance": field, "points": points, "names": np.array(names)}, columns)
     finite = np.isfinite(field)
     result: dict[str, Any] = {
         "file": str(output),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -63,15 +64,23 @@ def command(
     told = {"shape": laid.aligned, "growth": growth[:, whole]}
     tests = {name: (shape_test(x, columns, **wanted), hotelling_test(x, columns, **wanted)) for name, x in told.items()}
     points = point_tests(growth, columns[:, 0]) if columns.shape[1] == 1 else None
-    write_tests(tests, points, atlas.mean, output)
     write_growth(growth, atlas.names, output)
     found = {
         name: {"r_squared": one.r_squared, "f": one.f, "p": one.p, "t_squared": t.t_squared, "p_t_squared": t.p}
         for name, (one, t) in tests.items()
     }
-    known = 0 if points is None else int((points.q < 0.05).sum())
     groups = None if np.asarray(values).dtype.kind == "f" else sorted(set(np.asarray(values).tolist()))
+    write_tests(tests, points, atlas.mean, output, _slope(column, groups))
+    known = 0 if points is None else int((points.q < 0.05).sum())
     emit(
         {"folder": str(output), "specimens": len(atlas.names), "groups": groups, **found, "points_found": known},
         as_json,
     )
+
+
+def _slope(column: str, groups: Sequence[str] | None) -> str:
+    """What the slope of a point is: of log lengths beside the whole, from group to group or by a covariate."""
+    if groups:
+        return f"log of the change of length, from {groups[0]} to {groups[-1]}"
+    unit = "the log of the size" if column == "size" else column
+    return f"log of the change of length, per unit of {unit}"

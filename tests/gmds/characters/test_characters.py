@@ -207,3 +207,23 @@ def test_the_command(tmp_path: Path) -> None:
     for wrong in (["--values", call[5]], ["--most", "2"]):
         assert CliRunner().invoke(main, [*call, *wrong, *(["--rig"] if wrong[0] == "--values" else [])]).exit_code == 2
     assert CliRunner().invoke(main, [*call[:-1], str(tmp_path / "o.ply"), "--rig"]).exit_code == 2
+
+
+def test_the_character_of_the_demo_is_a_whole_one(tmp_path: Path) -> None:
+    """What `gmds demo --files` writes: four bones in a chain, their weights, a texture and a shape to morph to."""
+    pytest.importorskip("PIL")
+    from gmds.characters.scene import read_scene
+    from gmds.demo.files import write_files
+
+    write_files(tmp_path, 300)
+    path = tmp_path / "character.glb"
+    wolf = read_mesh(path)
+    scene = read_scene(path, wolf, rig=True)
+    assert np.allclose(scene.weights, np.load(tmp_path / "bones.npy"), atol=1e-6) and len(scene.bones) == 4
+    assert [len(each) for each in scene.shapes.values()] == [1] and list(scene.coordinates) == ["TEXCOORD_0"]
+    assert [each["name"] for each in scene.gltf.tree["materials"]] == ["fur"] and scene.gltf.tree["images"]
+    content, told = carry_scene(identity(wolf, wolf), path)
+    again = open_gltf(content, tmp_path / "again.glb")
+    assert (told.bones, told.shapes, told.materials) == (4, 1, ["fur"])
+    worlds = [world_matrices(gltf) for gltf in (scene.gltf, again)]
+    assert all(np.allclose(worlds[0][bone], worlds[1][bone], atol=1e-5) for bone in scene.bones)

@@ -78,6 +78,9 @@ def test_distances_from_landmarks_have_their_names(file: Path, tmp_path: Path) -
     with (tmp_path / "d.csv").open(newline="") as stream:
         rows = list(csv.DictReader(stream))
     assert np.array_equal([float(row["from_nose_3"]) for row in rows], field[1])
+    done("distances", file, *both, "--from", 7, "-o", tmp_path / "d.npz")
+    written = arrays(tmp_path / "d.npz")
+    assert written["names"].tolist() == ["nose", "nose", "7"] and written["points"].tolist() == [100, 3, 7]
     assert "E305" in refused("distances", file, "--from", tmp_path / "off.csv", "-o", tmp_path / "e.csv")
     assert "none.csv" in refused("distances", file, "--from", tmp_path / "none.csv", "-o", tmp_path / "e.csv")
 

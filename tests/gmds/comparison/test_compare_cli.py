@@ -155,3 +155,18 @@ def test_by_self_functional_maps_copies_are_the_same_and_others_are_not(folder: 
     assert np.array_equal(matrix, matrix.T) and matrix[0, 1] < 1e-3 < 0.05 < matrix[0, 3]
     assert (out / "kept" / "self_functional_maps" / "egg.npz").exists()
     assert "self functional maps" in (out / "compare.html").read_text()
+
+
+def test_shapes_are_compared_by_self_functional_maps(folder: Path, done: tuple[Path, dict], tmp_path: Path) -> None:
+    """`--by` compares by something else: congruent shapes are as near, others elsewhere, and nothing is mixed up."""
+    out = tmp_path / "out"
+    shutil.copytree(done[0], out)  # what is kept of bounds is not taken for something else
+    result = run(folder, "-o", out, "--by", "self-functional-maps", "--json")
+    assert result.exit_code == 0, result.output
+    said = json.loads(result.stdout)
+    assert (said["by"], done[1]["by"]) == ("self-functional-maps", "distances")
+    assert said["nearest_has_same_name"] == 1 and said["embedded_pairs"] == 0
+    new, old = (np.array([row[1:] for row in table(each / "matrix.csv")[1:]], dtype=float) for each in (out, done[0]))
+    assert np.array_equal(new, new.T) and (np.diag(new) == 0).all()
+    assert new[3, 4] < 0.1 * new[0, 3] and not np.allclose(new, old)
+    assert run(folder, "-o", out, "--by", "volume").exit_code == 2

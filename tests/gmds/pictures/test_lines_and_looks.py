@@ -147,3 +147,37 @@ def test_a_file_with_y_up_is_drawn_upright(tmp_path: Path, monkeypatch: pytest.M
         result = CliRunner().invoke(main, [*args, "--picture", str(tmp_path / "d.png")])
         assert result.exit_code == 0, result.output
     assert ways == [(0, 1, 0), (0, 1, 0), (0, 0, 1)]
+
+
+def test_rows_of_views_share_a_bar(tmp_path: Path) -> None:
+    """Four views, two a row: a bar a row."""
+    ball = icosphere(1)
+    along = ball.vertices[:, 2]
+    shots: list[Shot] = []
+    drawn: dict[str, list[Panel]] = {}
+
+    def renderer(given: Sequence[Shot]) -> list[np.ndarray]:
+        shots.extend(given)
+        return software(given)
+
+    write_values(tmp_path / "a.png", [(name, ball, along) for name in "abcd"], pixels=60, columns=2, renderer=renderer)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("gmds.pictures.values.write_panels", lambda _, panels, *__: drawn.update(panels=panels) or "")
+        write_values(tmp_path / "b.png", [(name, ball, along) for name in "abcd"], label="height", pixels=60)
+        same = drawn["panels"]
+    assert len(shots) == 4
+    row, square = (composed(same, software([panel.shot for panel in same]), "", columns) for columns in (None, 2))
+    bars = [sum(axis.get_ylabel() == "height" for axis in figure.axes) for figure in (row, square)]
+    assert bars == [1, 2], "neighbours with the same scale have one bar"
+    assert row.get_size_inches()[0] > 1.5 * square.get_size_inches()[0]
+    assert square.get_size_inches()[1] == pytest.approx(2 * row.get_size_inches()[1])
+
+
+def test_signed_values_and_others_have_a_range_each(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    ball, kept = icosphere(1), {}
+    height = ball.vertices[:, 2]
+    monkeypatch.setattr("gmds.pictures.values.write_panels", lambda _, panels, *__: kept.update(panels=panels) or "")
+    write_values(tmp_path / "b.png", [("a", ball, 0.5 * height), ("b", ball, height**2 + 1)], signed=[True, False])
+    first, second = kept["panels"]
+    assert first.limits == pytest.approx((-0.5, 0.5)) and first.signed
+    assert second.limits == pytest.approx((1 + (height**2).min(), 2)) and not second.signed
