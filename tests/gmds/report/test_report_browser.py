@@ -307,8 +307,9 @@ def test_no_word_of_another_map_moves_the_surfaces(running: Any, tmp_path: Path)
         boxes = []
         for number in (0, 1, 2, 0):
             page.select_option("#map", index=number)
-            boxes.append(page.locator("#stage").bounding_box())
-        assert boxes == boxes[:1] * 4
+            boxes.append([page.locator(part).bounding_box() for part in ("#stage", "h1", "#modes")])
+        assert [box[0] for box in boxes] == [boxes[0][0]] * 4
+        assert width == 390 or boxes == boxes[:1] * 4
 
 
 def test_every_click_keeps_a_pair_and_escape_lets_all_go(page: Any) -> None:
@@ -367,6 +368,9 @@ def test_a_narrow_window_shows_one_surface_under_the_other(running: Any, file: P
     first, second = (page.locator(f"#panel-{side}").bounding_box() for side in (0, 1))
     assert second["y"] >= first["y"] + first["height"]
     assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    page.set_viewport_size({"width": 390, "height": 640})  # what the bars of a browser leave of a phone
+    readout = page.locator("#readout").bounding_box()
+    assert readout["y"] + readout["height"] <= 640, "what is told stays in view"
 
 
 def test_what_has_no_counterpart_on_the_target_is_grey(running: Any, tmp_path: Path) -> None:
@@ -538,6 +542,11 @@ def test_few_true_points_are_dots_and_print_crops_nothing(answer: Correspondence
     assert page.evaluate("gmdsPage.scenes[0].painter.dots") == 0
     page.check("input[value=error]", force=True)
     assert page.evaluate("gmdsPage.scenes[0].painter.dots") == 15
+    is_grey = "(side) => gmdsPage.colours(side).every((c, i) => c === gmdsPage.data.missing[i % 3])"
+    grey = page.evaluate(f"[0, 1].map({is_grey})")
+    assert grey == [True, True], "nothing is known between the dots"
+    page.evaluate("gmdsPage.pin({ side: 0, vertex: 151 })")
+    assert "Error at the nearest known point 0.100" in page.locator("#readout").inner_text()
     assert page.evaluate("getComputedStyle(gmdsPage.scenes[0].plot).touchAction") == "pan-y", "a finger scrolls"
     page.emulate_media(media="print")
     page.set_viewport_size({"width": 760, "height": 1100})  # a sheet of A4

@@ -135,6 +135,8 @@ def test_landmarks_are_moved_named_deleted_and_brought_back(pair: SwappedPair, r
         assert moved != before
         page.click("#undo")
         assert page.evaluate(told) == before
+        page.click("#tool-wrong")
+        assert page.locator("#brush").is_visible() and page.locator("#stage").bounding_box() == stage
         page.reload()
         page.wait_for_selector("body[data-ready=yes]")
         assert json.loads(page.evaluate(told))[0]["at"][0] == pytest.approx(json.loads(before)[0]["at"][0])
