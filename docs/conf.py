@@ -92,6 +92,8 @@ def complete(_app: Any, docname: str, source: list[str]) -> None:
     """What is generated comes below what the page says; pages of tables take the place of the list of headings."""
     if docname in GENERATED:
         source[0] += GENERATED[docname]()
+    if docname.startswith(("docs/reference/gmds/", "docs/reference/geodesics/")):
+        source[0] = generated.with_summary(source[0])
     if docname.startswith(WIDE):
         source[0] = f"---\nhide-toc: true\n---\n{source[0]}"
 

@@ -18,6 +18,7 @@ import gmds.matching.notes
 from gmds.cli import main
 
 WIDTH = 86
+HEAD_LINES = 2  # of a table
 NOTES = {
     "on a mesh": geodesics.check,
     "on a file": geodesics.io,
@@ -46,11 +47,24 @@ def summary_of(package: str) -> str:
     for page in pages:
         source = (here / package / f"{page}.md").read_text(encoding="utf-8")
         title = source.splitlines()[0].removeprefix("# ")
-        text += f"\n## [{title}]({package}/{page}.md)\n\n| name | what it is |\n|---|---|\n"
-        for kind, name in re.findall(r"^\.\. auto(function|class|module):: ([\w.]+)$", source, re.MULTILINE):
-            role = {"function": "func", "class": "class", "module": "mod"}[kind]
-            first = re.sub(r"\s+", " ", (pkgutil.resolve_name(name).__doc__ or "").split("\n\n")[0])
-            text += f"| {{py:{role}}}`{name}` | {_in_a_cell(first)} |\n"
+        text += f"\n## [{title}]({package}/{page}.md)\n\n{table_of(source)}"
+    return text
+
+
+def with_summary(source: str) -> str:
+    """A page of the reference, with the table of what is on it below its heading; none where that is one thing."""
+    heading, _, rest = source.partition("\n")
+    table = table_of(source)
+    return f"{heading}\n\n{table}\n{rest}" if table.count("\n") > HEAD_LINES + 1 else source
+
+
+def table_of(source: str) -> str:
+    """What is documented on a page: a name, and its first sentence."""
+    text = "| name | what it is |\n|---|---|\n"
+    for kind, name in re.findall(r"^\.\. auto(function|class|module):: ([\w.]+)$", source, re.MULTILINE):
+        role = {"function": "func", "class": "class", "module": "mod"}[kind]
+        first = re.sub(r"\s+", " ", (pkgutil.resolve_name(name).__doc__ or "").split("\n\n")[0])
+        text += f"| {{py:{role}}}`{name}` | {_in_a_cell(first)} |\n"
     return text
 
 

@@ -63,6 +63,7 @@ def _of_scene(gltf: Gltf, materials: bool, rig: bool) -> list[str]:
     there = {
         "names of parts": not materials and len(primitives) > 1,
         "names of materials": not materials and any(each.get("name") for each in tree.get("materials", [])),
+        "the texture": not materials and bool(tree.get("images")),
         "bones and their weights": not rig and bool(tree.get("skins")),
         "shapes to morph to": not rig and any(each.get("targets") for each in primitives),
         "animations": bool(tree.get("animations")),

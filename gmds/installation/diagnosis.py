@@ -37,7 +37,7 @@ EXTRAS = {
         "pictures; pages and reports need neither it nor a browser here",
     ),
     "repair": (PACKAGES["repair"], "closing holes and remeshing in `gmds repair`"),
-    "batch": (PACKAGES["batch"], "`gmds batch`"),
+    "batch": (PACKAGES["batch"], "`gmds batch` and `atlas`, and `gmds landmarks` of a folder"),
     "neuro": (PACKAGES["neuro"], "GIFTI and FreeSurfer surfaces"),
     "notebook": (PACKAGES["notebook"], "maps to turn in a notebook"),
 }

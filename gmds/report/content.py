@@ -30,7 +30,7 @@ from gmds.pictures.colours import (
 from gmds.report.candidates import maps_of
 from gmds.report.drawing import Drawing
 from gmds.report.landmarks import Both, places
-from gmds.report.modes import SIGNED, TOPS, modes
+from gmds.report.modes import FINE, SIGNED, TOPS, modes
 from gmds.report.packing import levels, small
 from gmds.report.told import told
 
@@ -132,7 +132,9 @@ def _map(one: PointMap, drawn: Both, target_colours: Floats, fields: Mapping[str
         "tops": tops,
         "largest": {key: float(np.nanmax(fields[key], initial=0.0)) for key in fields},
         "histograms": {
-            key: [_histogram(fields[key], top) for top in (TOPS[key], tops[key])] for key in tops if key not in SIGNED
+            key: [_histogram(fields[key], top) for top in (TOPS[key], tops[key], FINE.get(key)) if top]
+            for key in tops
+            if key not in SIGNED
         },
         "curve": _curve(fields["error"]) if "error" in fields else None,
         "dots": _dots(one.source, fields.get("error"), ours),

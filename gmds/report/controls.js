@@ -99,7 +99,7 @@ function choose(page) {
   const from = (camera) => both(() => fitted(page.scenes, camera));
   const show = () => { options(page); page.show(); };
   listMaps(page);
-  ["map", "fit"].forEach((id) => at(id).addEventListener("change", show));
+  ["map", "fit", "fine"].forEach((id) => at(id).addEventListener("change", show));
   at("beside").addEventListener("change", () => showBeside(page));
   document.querySelectorAll("input[name=mode]").forEach((input) => input.addEventListener("change", show));
   ["squares", "wireframe"].forEach((id) => at(id).addEventListener("change", () => { options(page); page.changed(); }));

@@ -14,6 +14,7 @@ from gmds.report.packing import levels
 
 # where fixed scales end: conventions, 1 is certainty, 0.69 twice as long
 TOPS = {"confidence": 1.0, "distortion": 0.5, "growth": 0.69, "error": 0.25}
+FINE = {"error": 0.1}  # where scales may end as well: the other bound of the protocol, for maps that are good
 SIGNED = ("growth",)  # scales that begin as far below 0 as they end above
 UNMATCHED_COLOUR = (0.93, 0.60, 0.20)  # sRGB, orange: without a counterpart
 MATCHED_COLOUR = (0.28, 0.47, 0.72)  # sRGB, blue: with one
@@ -53,6 +54,7 @@ def modes(known: Sequence[str], errors: Floats | None = None) -> list[dict[str, 
                 "unit": UNITS[key],
                 "counted": counted,
                 "high": TOPS[key],
+                "fine": FINE.get(key, 0),
                 "reversed": key == "confidence",
                 "signed": key in SIGNED,
             }

@@ -24,7 +24,49 @@ function pinsTable(page) {
   return [head, ...rows].map((row) => row.join(",")).join("\n") + "\n";
 }
 
-// both surfaces side by side, as they are shown
+// a mark over the surfaces as it is styled, with all that is in it
+function drawMark(pen, mark) {
+  const style = getComputedStyle(mark);
+  const number = (name) => Number(mark.getAttribute(name) || 0);
+  const moved = /translate\((\S+) (\S+)\)/.exec(mark.getAttribute("transform") || "");
+  const path = new Path2D(mark.getAttribute("d") || "");
+  pen.save();
+  if (moved) pen.translate(Number(moved[1]), Number(moved[2]));
+  pen.globalAlpha *= Number(style.opacity);
+  [pen.fillStyle, pen.strokeStyle, pen.lineWidth] = [style.fill, style.stroke, parseFloat(style.strokeWidth)];
+  pen.setLineDash(style.strokeDasharray === "none" ? [] : style.strokeDasharray.split(",").map(parseFloat));
+  pen.font = `${style.fontWeight} ${style.fontSize} ${style.fontFamily}`;
+  pen.textAlign = { start: "left", middle: "center", end: "right" }[style.textAnchor];
+  if (mark.tagName === "circle") path.arc(0, 0, number("r"), 0, 2 * Math.PI);
+  if (mark.tagName === "line") { path.moveTo(0, 0); path.lineTo(number("x2"), number("y2")); }
+  const [filled, drawn] = [style.fill !== "none", style.stroke !== "none"];
+  if (mark.tagName === "text") {
+    if (drawn) pen.strokeText(mark.textContent, number("x"), number("y"));
+    if (filled) pen.fillText(mark.textContent, number("x"), number("y"));
+  } else if (mark.tagName !== "g") {
+    if (filled) pen.fill(path);
+    if (drawn) pen.stroke(path);
+  }
+  for (const part of mark.children) drawMark(pen, part);
+  pen.restore();
+}
+
+// pins, names, axes and scale over a panel that begins at `left`
+function drawMarks(pen, scene, left) {
+  const [box, stage] = [scene.plot.getBoundingClientRect(), at("stage").getBoundingClientRect()];
+  const { width, height } = scene.canvas;
+  pen.save();
+  pen.beginPath();
+  pen.rect(left, 0, width, height);
+  pen.clip();
+  pen.translate(left, 0);
+  pen.scale(width / box.width, height / box.height);
+  pen.translate(stage.left - box.left, stage.top - box.top);
+  for (const mark of document.querySelectorAll("#triads > g, #pins > g, #labels > g")) drawMark(pen, mark);
+  pen.restore();
+}
+
+// both surfaces side by side, as they are shown, with what is marked
 async function viewPicture(page) {
   page.scenes.forEach((scene) => scene.drawNow());
   const shown = page.scenes.map((scene) => scene.canvas);
@@ -34,11 +76,15 @@ async function viewPicture(page) {
   pen.fillStyle = getComputedStyle(document.querySelector(".panel")).backgroundColor;
   pen.fillRect(0, 0, picture.width, picture.height);
   let left = 0;
-  for (const one of shown) { pen.drawImage(one, left, 0); left += one.width; }
+  for (const scene of page.scenes) {
+    pen.drawImage(scene.canvas, left, 0);
+    drawMarks(pen, scene, left);
+    left += scene.canvas.width;
+  }
   return new Promise((done) => picture.toBlob(done, "image/png"));
 }
 
-const CHECKS = ["together", "squares", "wireframe", "fit"];
+const CHECKS = ["together", "squares", "wireframe", "fit", "fine"];
 
 function stateOf(page) {
   const flat = (camera) => ["eye", "up", "center"].flatMap((name) => xyz(camera[name])).map((c) => Number(c.toFixed(4))).join(",");

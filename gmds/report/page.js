@@ -42,7 +42,8 @@ class Page extends Telling {
 
   // where the scale of a way of colouring ends, for a map
   top(mode, map = this.map) {
-    return at("fit").checked && map.tops[mode.key] ? map.tops[mode.key] : mode.high;
+    if (at("fit").checked && map.tops[mode.key]) return map.tops[mode.key];
+    return at("fine").checked && mode.fine ? mode.fine : mode.high;
   }
 
   // the colour of a value; grey where there is none

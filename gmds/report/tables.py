@@ -20,7 +20,7 @@ GENERAL = (
     "Point at a surface, and the partner lights up on the other. A dashed ring is a partner on the far side. Every "
     "click keeps one more pair marked while you turn; Escape lets all of them go.",
     "Grey has no counterpart, or no value. Scales are the same on every page, so that two pages can be compared, "
-    'unless "fit scale" is ticked: they then end where 98 % of the values of this map do.',
+    'unless "to 0.1" or "fit scale" is ticked: these end where good maps do, or 98 % of the values of this map.',
     "The length at the lower right of a surface is in the units of its file, and holds in the middle of the view.",
 )
 

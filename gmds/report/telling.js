@@ -10,6 +10,8 @@ class Telling {
     at("legend-valid").hidden = !mode.swatches;
     at("legend-match").hidden = mode.key !== "match";
     at("fit-choice").style.visibility = mode.high && mode.key in map.tops ? "" : "hidden";
+    at("fine-choice").hidden = !mode.fine;
+    at("fine").disabled = at("fit").checked;
     at("largest").textContent = mode.reversed ? "Lowest" : "Largest";
     at("largest").style.visibility = mode.high ? "" : "hidden";
     if (!mode.high) return;
@@ -49,7 +51,7 @@ class Telling {
     if (spread) {
       const high = this.top(mode);
       at("histogram-title").textContent = `How the ${mode.label.toLowerCase()} is spread`;
-      drawHistogram(at("histogram"), { ...mode, high, counts: spread[high === mode.high ? 0 : 1] }, (share) => `rgb(${Array.from(this.ramp(share * high, mode))})`);
+      drawHistogram(at("histogram"), { ...mode, high, counts: spread[at("fit").checked ? 1 : high === mode.high ? 0 : 2] }, (share) => `rgb(${Array.from(this.ramp(share * high, mode))})`);
     }
     const known = data.maps.filter((one) => one.curve);
     const curves = known.map((one) => ({ name: one.name, share: one.curve }));

@@ -86,7 +86,7 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
     Polygons of the source's file stay what they were in .obj, .ply and .vtp.
     Where the texture is cut, faces whose corners go to different sides take all of it from one side, stretched up to
     the seam; their number is told.
-    A .glb with a texture is cut open along its seams: weld it (`gmds repair`), match that, and give the .glb to --look.
+    A .glb with a texture is cut open along its seams; `gmds match` welds a copy of it by itself.
     """
     from geodesics import read_mesh
     from gmds import Correspondence

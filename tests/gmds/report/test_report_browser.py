@@ -534,6 +534,48 @@ def test_the_picture_of_the_page_has_all_panels(page: Any) -> None:
     )
 
 
+def test_the_picture_of_the_page_shows_what_is_marked(page: Any) -> None:
+    """Pins are in it where they are on the page; so are axes and the scale, which are always there."""
+    from io import BytesIO
+
+    from matplotlib.image import imread
+
+    def saved() -> np.ndarray:
+        with page.expect_download() as offered:
+            page.click("#save-view")
+        return imread(BytesIO(Path(offered.value.path()).read_bytes()))[..., :3]
+
+    before = saved()
+    page.evaluate("gmdsPage.pin({ side: 0, vertex: 151 })")
+    changed = np.abs(saved() - before).max(axis=2) > 0.2
+    rows, columns = np.nonzero(changed)
+    half = before.shape[1] // 2
+    spots = page.evaluate("""() => [0, 1].map((side) => {
+        const scene = gmdsPage.scenes[side], partner = gmdsPage.partner(0, 151);
+        const place = scene.place(side ? partner.position : scene.vertex(151));
+        return [place.x * scene.canvas.width / scene.plot.clientWidth + side * gmdsPage.scenes[0].canvas.width,
+            place.y * scene.canvas.height / scene.plot.clientHeight];
+    })""")
+    for side, (x, y) in enumerate(spots):
+        mine = columns >= half if side else columns < half
+        assert mine.any() and abs(columns[mine].mean() - x) < 4 and abs(rows[mine].mean() - y) < 4
+        assert np.hypot(columns[mine] - x, rows[mine] - y).max() < 14
+    corner = before[-60:, 20:100]  # the axes, on the paper of the panel
+    assert len(np.unique((255 * corner).astype(int).reshape(-1, 3), axis=0)) > 10
+
+
+def test_errors_have_two_fixed_scales(page: Any) -> None:
+    page.check("input[value=distortion]", force=True)
+    assert not page.locator("#fine").is_visible()
+    page.check("input[value=error]", force=True)
+    assert page.locator("#high").inner_text() == "0.25"
+    page.check("#fine")
+    assert page.locator("#high").inner_text() == "0.1 and more"
+    assert "0.1" in page.locator("#histogram").inner_text()
+    page.uncheck("#fine")
+    assert page.locator("#high").inner_text() == "0.25"
+
+
 def test_few_true_points_are_dots_and_print_crops_nothing(answer: Correspondence, running: Any, tmp_path: Path) -> None:
     errors = np.full(1500, np.nan)
     errors[::100] = 0.1
