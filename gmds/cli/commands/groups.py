@@ -64,13 +64,13 @@ def command(
     told = {"shape": laid.aligned, "growth": growth[:, whole]}
     tests = {name: (shape_test(x, columns, **wanted), hotelling_test(x, columns, **wanted)) for name, x in told.items()}
     points = point_tests(growth, columns[:, 0]) if columns.shape[1] == 1 else None
-    write_growth(growth, atlas.names, output)
     found = {
         name: {"r_squared": one.r_squared, "f": one.f, "p": one.p, "t_squared": t.t_squared, "p_t_squared": t.p}
         for name, (one, t) in tests.items()
     }
     groups = None if np.asarray(values).dtype.kind == "f" else sorted(set(np.asarray(values).tolist()))
     write_tests(tests, points, atlas.mean, output, _slope(column, groups))
+    write_growth(growth, atlas.names, output)
     known = 0 if points is None else int((points.q < 0.05).sum())
     emit(
         {"folder": str(output), "specimens": len(atlas.names), "groups": groups, **found, "points_found": known},
