@@ -25,6 +25,7 @@ from geodesics.errors import (
 # Extent of the coordinates along an axis, in their own unit. Areas are computed from fourth powers of lengths, which
 # must stay within float64, 1e-308 to 1e308; a factor of 1e8 is left at either end.
 SMALLEST_EXTENT, LARGEST_EXTENT = 1e-75, 1e75
+OF_A_MESH = ("vertices", "faces")  # of which errors show how to get them
 
 
 def as_vertices(vertices: ArrayLike | None) -> Floats:
@@ -68,6 +69,8 @@ def as_faces(faces: ArrayLike | None, n_vertices: int) -> Integers:
 
 def as_indices(indices: ArrayLike, bound: int, row: str, things: str) -> Integers:
     """A fresh int64 copy of whole numbers in 0 .. bound - 1; `row` and `things` name them in errors (E105-E107)."""
+    if indices is None:
+        raise TypeError(f"{row} indices are expected, not None")
     raw = np.atleast_1d(as_array(indices, f"{row} indices"))
     outside = f"{row} {{}} = {{}} refers outside the {bound} {things}; indices count from 0"
     if raw.dtype.kind not in "fiu":
@@ -79,7 +82,8 @@ def as_indices(indices: ArrayLike, bound: int, row: str, things: str) -> Integer
     if raw.dtype.kind == "f":
         with np.errstate(invalid="ignore"):
             broken = (raw != np.floor(raw)) | ~np.isfinite(raw)
-        _refuse_rows(broken, raw, NonIntegralFace, f"{row} {{}} = {{}} is not made of whole numbers")
+        kind = "no whole number" if raw.ndim == 1 else "not made of whole numbers"
+        _refuse_rows(broken, raw, NonIntegralFace, f"{row} {{}} = {{}} is {kind}")
     _refuse_rows((raw < 0) | (raw >= bound), raw, IndexOutOfRange, outside)
     return np.array(raw, dtype=np.int64, order="C")
 
@@ -113,7 +117,8 @@ def as_array(values: Any, name: str) -> NDArray[Any]:
     if values is None:
         return np.empty(0)
     if isinstance(values, (str, bytes)) or hasattr(values, "__fspath__"):
-        raise TypeError(f"{name} must be an array, not {values!r:.80}; files are read by geodesics.read_mesh(path)")
+        hint = "; files are read by geodesics.read_mesh(path)" if name in OF_A_MESH else ""
+        raise TypeError(f"{name} must be an array, not {values!r:.80}{hint}")
     if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
         raise BadDtype(f"{name} have {int(np.ma.count_masked(values))} masked entries; fill or remove them")
     try:
@@ -121,10 +126,8 @@ def as_array(values: Any, name: str) -> NDArray[Any]:
     except ValueError as error:
         raise BadShape(f"{name} do not form a rectangular array ({error})") from error
     if array.dtype.kind == "O" and array.ndim == 0:
-        raise TypeError(
-            f"{name} must be an array, not {type(values).__name__}; "
-            "for example Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])"
-        )
+        example = "; for example Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])" if name in OF_A_MESH else ""
+        raise TypeError(f"{name} must be an array, not {type(values).__name__}{example}")
     return array
 
 

@@ -13,6 +13,11 @@ from geodesics.arrays import Floats
 from geodesics.errors import BadArgument, BadDtype
 
 
+def is_whole(value: Any) -> bool:
+    """Whether something counts: an integer of Python or numpy, and no truth value."""
+    return isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+
+
 def whole_number(value: Any, name: str, least: int, most: int | None = None, of: str = "") -> int:
     """A count from `least` to `most`, which is what there is `of` something; `BadArgument` (E604) for anything else."""
     try:
@@ -22,6 +27,18 @@ def whole_number(value: Any, name: str, least: int, most: int | None = None, of:
     if number < least or (most is not None and number > most):
         limits = f"at least {least}" if most is None else f"from {least} to {most}{of and f', {of}'}"
         raise BadArgument(f"{name} must be {limits}, and a whole number, not {value!r:.40}")
+    return number
+
+
+def real_number(value: Any, name: str, least: float = -np.inf) -> float:
+    """A finite number, at least so large; `BadArgument` (E604) for anything else."""
+    try:
+        number = float(value) if np.ndim(value) == 0 and not isinstance(value, (str, bytes)) else np.nan
+    except (TypeError, ValueError):
+        number = np.nan
+    if not (np.isfinite(number) and number >= least):
+        limits = "a finite number" if least == -np.inf else f"a finite number >= {least:g}"
+        raise BadArgument(f"{name} must be {limits}, not {value!r:.40}")
     return number
 
 

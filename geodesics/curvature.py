@@ -6,13 +6,14 @@ import numpy as np
 import scipy.sparse as sp
 
 from geodesics import intrinsic
+from geodesics.arguments import real_number
 from geodesics.arrays import Bools, Floats
 from geodesics.caching import memoized
 from geodesics.delaunay import IntrinsicTriangulation, intrinsic_delaunay
 from geodesics.intrinsic import vertex_areas, vertex_sums
 from geodesics.laplacian import cotangent_matrix
 from geodesics.linalg.factors import factorised
-from geodesics.mesh import Mesh
+from geodesics.mesh import Mesh, of_a_mesh
 from geodesics.moved_paths import names_moved
 from geodesics.smoothing import DEFAULT_SMOOTHING, FIRST_LOOK
 from geodesics.topology.components import boundary_vertices
@@ -20,6 +21,7 @@ from geodesics.topology.edges import proper_faces
 from geodesics.topology.orientation import orient_faces
 
 
+@of_a_mesh
 def angle_defect(mesh: Mesh) -> Floats:
     r"""The angle defect, the numerator of :math:`|K_i|` below (4.5).
 
@@ -57,6 +59,7 @@ def angle_defect(mesh: Mesh) -> Floats:
     return flat - vertex_sums(faces, theta, mesh.n_vertices)
 
 
+@of_a_mesh
 def gaussian_curvature(mesh: Mesh, smoothing: float = DEFAULT_SMOOTHING) -> Floats:
     r"""Gaussian curvature: the angle defect per area, smoothed so that remeshing keeps it.
 
@@ -101,6 +104,7 @@ def gaussian_curvature(mesh: Mesh, smoothing: float = DEFAULT_SMOOTHING) -> Floa
     return smoothed_density(triangulation, defect, interior, time)
 
 
+@of_a_mesh
 def mean_curvature(mesh: Mesh, smoothing: float = DEFAULT_SMOOTHING) -> Floats:
     """Mean curvature, positive where a closed surface is convex.
 
@@ -140,6 +144,7 @@ def mean_curvature(mesh: Mesh, smoothing: float = DEFAULT_SMOOTHING) -> Floats:
     return smoothed_density(triangulation, bend, interior, time)
 
 
+@of_a_mesh
 def principal_curvatures(mesh: Mesh, smoothing: float = DEFAULT_SMOOTHING) -> tuple[Floats, Floats]:
     r"""Principal curvatures :math:`k_{1,2} = H \pm \sqrt{H^2 - K}`; where the radicand is negative it is taken as 0.
 
@@ -172,6 +177,7 @@ def principal_curvatures(mesh: Mesh, smoothing: float = DEFAULT_SMOOTHING) -> tu
     return h + root, h - root
 
 
+@of_a_mesh
 @memoized
 def vertex_normals(mesh: Mesh) -> Floats:
     """Unit normals of vertices: those of the faces around them, weighted by angle.
@@ -210,6 +216,7 @@ def curvature_time(triangulation: IntrinsicTriangulation, defect: Floats, interi
     That curvature is K smoothed with one time everywhere. At most `smoothing` times the area of the surface, where it
     is flat.
     """
+    smoothing = real_number(smoothing, "smoothing", 0.0)
     area = intrinsic.areas(triangulation.l_sq).sum()
     coarse = smoothed_density(triangulation, defect, interior, np.full(len(triangulation.faces), FIRST_LOOK * area))
     curvature = np.hypot(coarse, 4 * np.pi / area)[triangulation.faces].mean(axis=1)

@@ -10,7 +10,7 @@ from geodesics._kernels import flips
 from geodesics.arrays import Floats, Integers
 from geodesics.caching import memoized
 from geodesics.intrinsic import squared_lengths
-from geodesics.mesh import Mesh
+from geodesics.mesh import Mesh, of_a_mesh
 from geodesics.moved_paths import names_moved
 from geodesics.topology.edges import edge_keys, proper_faces, twice_given
 
@@ -39,6 +39,7 @@ class GluedTriangulation(NamedTuple):
     whole: Floats
 
 
+@of_a_mesh
 @memoized
 def intrinsic_delaunay(mesh: Mesh) -> IntrinsicTriangulation:
     """The intrinsic Delaunay triangulation, by edge flips; the surface and all distances on it stay the same.

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geodesics._kernels.spreading import closer_rows
+from geodesics.arguments import real_number
 from geodesics.arrays import Floats, Integers
 from geodesics.distance import FEWER_POINTS, as_points
-from geodesics.errors import BadArgument
 from geodesics.euclidean import euclidean_distances
 from geodesics.memory import table
 from geodesics.mesh import Mesh
@@ -131,9 +131,8 @@ class DiffusionDistance(_SpectralDistance):
 
     def __init__(self, spectrum: Spectrum | Metric | Mesh, time: float) -> None:
         spectrum = as_spectrum(spectrum)
-        if not time >= 0:
-            raise BadArgument(f"time must be >= 0 (in units of the area of the surface), not {time}")
-        object.__setattr__(self, "time", float(time))
+        time = real_number(time, "time (in units of the area of the surface)", 0.0)
+        object.__setattr__(self, "time", time)
         fade = np.exp(-spectrum.eigenvalues * (time * spectrum.mass.sum()))
         self._set(spectrum, spectrum.eigenfunctions * fade)
 

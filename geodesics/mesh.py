@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,6 +15,8 @@ from geodesics._duck import arrays_of
 from geodesics._validation import as_faces, as_indices, as_vertices, check_area
 from geodesics.arrays import Floats, Integers
 from geodesics.errors import BadShape
+
+F = TypeVar("F", bound=Callable[..., Any])
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,6 +130,16 @@ class Mesh:
     def area(self) -> float:
         """Area of the surface, in squared units of the coordinates."""
         return float(intrinsic.areas(intrinsic.squared_lengths(self.vertices, self.faces)).sum())
+
+
+def of_a_mesh(function: F) -> F:
+    """Have a function of a mesh take mesh objects of other libraries too, and refuse anything else in one sentence."""
+
+    @functools.wraps(function)
+    def wrapper(mesh: Any, *arguments: Any, **options: Any) -> Any:
+        return function(Mesh.from_object(mesh), *arguments, **options)
+
+    return wrapper  # type: ignore[return-value]
 
 
 def triangulate(faces: ArrayLike) -> Integers:

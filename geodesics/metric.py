@@ -8,10 +8,12 @@ from typing import Any
 import numpy as np
 
 from geodesics import intrinsic
+from geodesics.arguments import real_numbers
 from geodesics.arrays import Floats
 from geodesics.delaunay import intrinsic_delaunay
+from geodesics.errors import BadShape
 from geodesics.intrinsic import vertex_areas
-from geodesics.mesh import Mesh
+from geodesics.mesh import Mesh, of_a_mesh
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,6 +59,7 @@ class Metric:
         return f"Metric(area {self.mass.sum():.3g}, {kind}, on {self.mesh!r})"
 
 
+@of_a_mesh
 def conformal(mesh: Mesh, factor: Floats) -> Metric:
     r"""The metric :math:`\rho g`, with g the embedded metric.
 
@@ -86,6 +89,9 @@ def conformal(mesh: Mesh, factor: Floats) -> Metric:
     >>> float((metric.l_sq / geodesics.embedded(sphere).l_sq).max().round(6))
     4.0
     """
+    factor = real_numbers(factor, "factor")
+    if factor.shape != (mesh.n_vertices,):
+        raise BadShape(f"factor must be {mesh.n_vertices} numbers, one for each vertex, not of shape {factor.shape}")
     l_sq = intrinsic.conformal_lengths(intrinsic.squared_lengths(mesh.vertices, mesh.faces), mesh.faces, factor)
     mass = factor * vertex_areas(*intrinsic_delaunay(mesh), mesh.n_vertices)
     return Metric(mesh, l_sq, mass, factor)

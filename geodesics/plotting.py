@@ -41,9 +41,9 @@ def plot(
     ----------
     mesh : Mesh
         The surface, of n vertices.
-    values : array_like of shape (n,) or (n, 3), optional
-        A number for each vertex (a distance, an eigenfunction, a signature at one time), with a bar of colours; what
-        is not finite is drawn at the lower end. Or red, green and blue for each, from 0 to 1.
+    values : array_like of shape (n,), (1, n) or (n, 3), optional
+        A number for each vertex (an eigenfunction, a signature at one time, the field of one point), with a bar of
+        colours; what is not finite is drawn at the lower end. Or red, green and blue for each, from 0 to 1.
     points : SurfacePoints or array_like of int, optional
         Points, or vertices, to be marked.
     paths : sequence of SurfacePoints or array_like of shape (k, 3), optional
@@ -147,6 +147,7 @@ def _colours(values: ArrayLike | None, count: int) -> dict[str, Any]:
     if values is None:
         return {"color": PLAIN}
     v = real_numbers(values, "values")
+    v = v[0] if v.shape == (1, count) else v
     if v.shape == (count, 3):
         if not ((v >= 0) & (v <= 1)).all():
             raise BadArgument("colours must be numbers from 0 to 1; divide those from 0 to 255 by 255")

@@ -8,6 +8,8 @@ from typing import NamedTuple, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike
 
+from geodesics._validation import as_indices
+from geodesics.arguments import is_whole
 from geodesics.arrays import Bools, Floats, Integers
 from geodesics.caching import memoized
 from geodesics.distance import Distance, as_distance
@@ -87,10 +89,10 @@ def farthest_point_cells(distance: Distance, count: int, first: int | None = Non
     """
     mesh = as_distance(distance).mesh
     eligible = _eligible(mesh).copy()
-    if not 1 <= count <= eligible.sum():
-        raise BadArgument(f"count must be 1 to {eligible.sum()}, not {count}")
-    if first is not None and not (0 <= first < mesh.n_vertices and eligible[first]):
-        raise BadArgument(f"first must be a vertex on the surface, not {first}")
+    if not is_whole(count) or not 1 <= count <= eligible.sum():
+        raise BadArgument(f"count must be 1 to {eligible.sum()}, not {count!r:.40}")
+    if first is not None and not (is_whole(first) and 0 <= first < mesh.n_vertices and eligible[first]):
+        raise BadArgument(f"first must be a vertex on the surface, not {first!r:.40}")
     closer, samples = _spreader(distance), np.empty(count, dtype=np.int64)
     nearest, cell = np.full(mesh.n_vertices, np.inf), np.full(mesh.n_vertices, -1, dtype=np.int64)
     samples[0] = _outermost(mesh, eligible) if first is None else first
@@ -118,6 +120,11 @@ def voronoi_cells(distance: Distance, samples: ArrayLike) -> Integers:
     int array of shape (n,)
         Index into `samples`, or -1 where no sample can be reached.
 
+    Raises
+    ------
+    MeshError
+        E105 to E107 for samples that are no vertices.
+
     See Also
     --------
     farthest_point_sampling : Samples that are evenly spread.
@@ -134,7 +141,7 @@ def voronoi_cells(distance: Distance, samples: ArrayLike) -> Integers:
     """
     n, closer = as_distance(distance).mesh.n_vertices, _spreader(distance)
     nearest, cell = np.full(n, np.inf), np.full(n, -1, dtype=np.int64)
-    for i, vertex in enumerate(np.asarray(samples, dtype=np.int64).reshape(-1)):
+    for i, vertex in enumerate(as_indices(samples, n, "sample", "vertices").reshape(-1)):
         where, values = closer(int(vertex), nearest)
         nearest[where], cell[where] = values, i
     return cell

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from geodesics.arguments import real_numbers, whole_number
 from geodesics.arrays import Floats
 from geodesics.distance import as_points
 from geodesics.errors import BadArgument
@@ -187,7 +188,7 @@ def scale_invariant_heat_kernel_signature(
     >>> geodesics.scale_invariant_heat_kernel_signature(sphere).shape
     (162, 6)
     """
-    spectrum = as_spectrum(spectrum)
+    spectrum, n_frequencies = as_spectrum(spectrum), whole_number(n_frequencies, "n_frequencies", 0)
     t = resolved_times(spectrum, TIMES) if times is None else _times(times)
     if len(t) < 3 or np.any(t <= 0) or not np.allclose(t[1:] / t[:-1], t[1] / t[0], rtol=1e-6):
         raise BadArgument("times must be at least three positive numbers that grow by a constant factor")
@@ -215,7 +216,7 @@ def resolved_times(spectrum: Spectrum, count: int) -> Floats:
 
 
 def _times(times: ArrayLike) -> Floats:
-    t = np.atleast_1d(np.asarray(times, dtype=np.float64))
+    t = np.atleast_1d(real_numbers(times, "times"))
     if t.ndim != 1 or not np.all(t >= 0) or not np.all(np.isfinite(t)):
         raise BadArgument("times must be finite numbers >= 0, in units of the area of the surface")
     return t

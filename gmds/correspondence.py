@@ -99,8 +99,8 @@ class Correspondence:
         **others
             Any other attribute; unless given `distortion` is zero, and `valid` but what is on no face.
         """
-        others.setdefault("valid", np.bincount(source.faces.ravel(), minlength=source.n_vertices) > 0)
-        others.setdefault("distortion", np.zeros(source.n_vertices))
+        n = (source := Mesh.from_object(source)).n_vertices
+        others = {"valid": np.bincount(source.faces.ravel(), minlength=n) > 0, "distortion": np.zeros(n), **others}
         return cls(source=source, target=points.mesh, points=points, **others)
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -5,16 +5,18 @@ from __future__ import annotations
 import numpy as np
 
 from geodesics import intrinsic
+from geodesics.arguments import real_number
 from geodesics.curvature import curvature_time, smoothed_density
 from geodesics.delaunay import IntrinsicTriangulation
 from geodesics.intrinsic import vertex_sums
-from geodesics.mesh import Mesh
+from geodesics.mesh import Mesh, of_a_mesh
 from geodesics.metric import Metric
 from geodesics.metrics.equi_affine import equi_affine_tensor, metric_of_lengths, shared_lengths
 from geodesics.smoothing import EQUI_AFFINE
 from geodesics.topology.components import boundary_vertices
 
 
+@of_a_mesh
 def affine(mesh: Mesh, *, regularisation: float = 1.0, smoothing: float = EQUI_AFFINE) -> Metric:
     r"""The affine-invariant metric (sec. 2).
 
@@ -59,5 +61,5 @@ def affine(mesh: Mesh, *, regularisation: float = 1.0, smoothing: float = EQUI_A
     triangulation = IntrinsicTriangulation(faces, l_sq)
     time = curvature_time(triangulation, defect, interior, smoothing)
     curvature = smoothed_density(triangulation, defect, interior, time)
-    epsilon = regularisation * 4 * np.pi / intrinsic.areas(l_sq).sum()
+    epsilon = real_number(regularisation, "regularisation", 0.0) * 4 * np.pi / intrinsic.areas(l_sq).sum()
     return metric_of_lengths(mesh, intrinsic.conformal_lengths(l_sq, faces, np.hypot(curvature, epsilon)))

@@ -5,12 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from geodesics.curvature import gaussian_curvature, mean_curvature, principal_curvatures
-from geodesics.mesh import Mesh
+from geodesics.mesh import Mesh, of_a_mesh
 from geodesics.metric import Metric, conformal
 from geodesics.metrics._regularised import regularised
 from geodesics.smoothing import DEFAULT_SMOOTHING
 
 
+@of_a_mesh
 def first_curvature_length(mesh: Mesh, *, regularisation: float = 1.0, smoothing: float = DEFAULT_SMOOTHING) -> Metric:
     r"""The arc length :math:`d\tau = |k_1| \, ds` (sec. 2), :math:`k_1` the larger signed principal curvature.
 
@@ -31,6 +32,7 @@ def first_curvature_length(mesh: Mesh, *, regularisation: float = 1.0, smoothing
     return conformal(mesh, regularised(mesh, principal_curvatures(mesh, smoothing)[0] ** 2, regularisation))
 
 
+@of_a_mesh
 def second_curvature_length(mesh: Mesh, *, regularisation: float = 1.0, smoothing: float = DEFAULT_SMOOTHING) -> Metric:
     r"""The arc length :math:`d\tau = |k_2| \, ds` (sec. 2), :math:`k_2` the smaller signed principal curvature.
 
@@ -51,6 +53,7 @@ def second_curvature_length(mesh: Mesh, *, regularisation: float = 1.0, smoothin
     return conformal(mesh, regularised(mesh, principal_curvatures(mesh, smoothing)[1] ** 2, regularisation))
 
 
+@of_a_mesh
 def curvature_ratio_length(mesh: Mesh, *, regularisation: float = 1.0, smoothing: float = DEFAULT_SMOOTHING) -> Metric:
     r"""The arc length :math:`d\tau = |K / H| \, ds = 2 \, ds / |\rho_1 + \rho_2|` (sec. 2).
 
@@ -75,6 +78,7 @@ def curvature_ratio_length(mesh: Mesh, *, regularisation: float = 1.0, smoothing
     return conformal(mesh, regularised(mesh, squared, regularisation))
 
 
+@of_a_mesh
 def gaussian_curvature_length(
     mesh: Mesh, *, regularisation: float = 1.0, smoothing: float = DEFAULT_SMOOTHING
 ) -> Metric:

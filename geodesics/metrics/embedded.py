@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from geodesics.mesh import Mesh
+from geodesics.mesh import Mesh, of_a_mesh
 from geodesics.metric import Metric, conformal
 
 
+@of_a_mesh
 def embedded(mesh: Mesh) -> Metric:
     r"""The embedded metric :math:`g_{ij} = \langle S_i, S_j \rangle` (sec. 2), inherited from space.
 

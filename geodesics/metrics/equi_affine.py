@@ -5,14 +5,16 @@ from __future__ import annotations
 import numpy as np
 
 from geodesics import intrinsic
+from geodesics.arguments import real_number
 from geodesics.arrays import Floats, Integers
 from geodesics.curvature import vertex_normals
 from geodesics.intrinsic import vertex_sums
-from geodesics.mesh import Mesh
+from geodesics.mesh import Mesh, of_a_mesh
 from geodesics.metric import Metric
 from geodesics.topology.edges import edge_keys
 
 
+@of_a_mesh
 def equi_affine(mesh: Mesh, *, regularisation: float = 0.05) -> Metric:
     r"""The equi-affine metric (sec. 2), invariant to volume-preserving affine maps.
 
@@ -55,6 +57,7 @@ def equi_affine(mesh: Mesh, *, regularisation: float = 0.05) -> Metric:
 
 def equi_affine_tensor(mesh: Mesh, regularisation: float = 0.05) -> Floats:
     """The tensor |K|^(-1/4) |b_ij| per face (m, 2, 2), in barycentric coordinates; units of length^(3/2)."""
+    regularisation = real_number(regularisation, "regularisation", 0.0)
     v, faces = mesh.vertices, mesh.faces
     edge = np.stack([v[faces[:, 1]] - v[faces[:, 0]], v[faces[:, 2]] - v[faces[:, 0]]], axis=1)
     area = 0.5 * np.linalg.norm(np.cross(edge[:, 0], edge[:, 1]), axis=1)

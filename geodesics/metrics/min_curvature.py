@@ -5,12 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from geodesics.curvature import principal_curvatures
-from geodesics.mesh import Mesh
+from geodesics.mesh import Mesh, of_a_mesh
 from geodesics.metric import Metric, conformal
 from geodesics.metrics._regularised import regularised
 from geodesics.smoothing import DEFAULT_SMOOTHING
 
 
+@of_a_mesh
 def min_curvature(mesh: Mesh, *, regularisation: float = 1.0, smoothing: float = DEFAULT_SMOOTHING) -> Metric:
     r"""The metric of the smaller principal curvature (7.1), which the paper names and leaves unexplored.
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from geodesics.arguments import real_number
 from geodesics.curvature import gaussian_curvature
-from geodesics.mesh import Mesh
+from geodesics.mesh import Mesh, of_a_mesh
 from geodesics.metric import Metric, conformal
 from geodesics.metrics._regularised import regularised
 from geodesics.smoothing import DEFAULT_SMOOTHING
 
 
+@of_a_mesh
 def scale_invariant(
     mesh: Mesh, *, exponent: float = 1.0, regularisation: float = 1.0, smoothing: float = DEFAULT_SMOOTHING
 ) -> Metric:
@@ -53,4 +55,5 @@ def scale_invariant(
     >>> float(round(areas[1] / areas[0], 6))
     1.0
     """
+    exponent = real_number(exponent, "exponent")
     return conformal(mesh, regularised(mesh, gaussian_curvature(mesh, smoothing), regularisation) ** exponent)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from geodesics.arrays import Bools, Integers
-from geodesics.mesh import Mesh
+from geodesics.mesh import Mesh, of_a_mesh
 from geodesics.topology.edges import components, edges
 
 
@@ -47,6 +47,7 @@ def orientation(mesh: Mesh) -> Orientation:
     return Orientation(turn, _inward(mesh, turn, part) & ~one_sided, one_sided)
 
 
+@of_a_mesh
 def orient_faces(mesh: Mesh) -> Mesh:
     """The same mesh with consistently oriented faces, outward where the surface is closed.
 

@@ -10,7 +10,9 @@ from scipy.optimize import linear_sum_assignment
 from scipy.spatial.distance import cdist
 
 from geodesics import Mesh, Metric, eigenpairs, scale_invariant
+from geodesics.arguments import real_numbers
 from geodesics.arrays import Floats, Integers
+from geodesics.errors import BadShape
 from geodesics.euclidean import euclidean_distances
 from geodesics.sampling import farthest_point_cells
 from gmds.surface.measured import EXPONENTS, SMOOTHING, Surface, measure
@@ -115,6 +117,9 @@ def least_distortion(one: Floats, other: Floats) -> float:
     >>> bool(pose < species)
     True
     """
+    one, other = (real_numbers(profile, "profiles, of `distance_profile`,") for profile in (one, other))
+    if one.ndim != 3 or one.shape != other.shape:
+        raise BadShape(f"profiles must be of one shape (metrics, 100, 40), not {one.shape} and {other.shape}")
     return float(np.mean([_assigned(ours, theirs) for ours, theirs in zip(one, other, strict=True)]))
 
 

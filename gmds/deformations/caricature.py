@@ -6,6 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from geodesics import Mesh, SurfacePoints, intrinsic, scale_invariant
+from geodesics.arguments import real_number
 from geodesics.arrays import Floats
 from geodesics.linalg.factors import lu_factors
 from geodesics.smoothing import DEFAULT_SMOOTHING
@@ -51,6 +52,7 @@ def caricature(
     --------
     local_scaling : Any field of scale.
     """
+    exponent = real_number(exponent, "exponent")
     metric = scale_invariant(mesh, regularisation=regularisation, smoothing=smoothing)
     sphere = 4 * np.pi / mesh.area * np.hypot(1.0, regularisation)
     growth = (np.asarray(metric.conformal_factor) / sphere) ** exponent

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from geodesics.errors import BadArgument
-from gmds.mds.losses import ALL, LeastSquares, Loss
+from gmds.mds.losses import Loss, as_loss
 
 
 def loss_of(distance: Any, loss: Any) -> Loss:
@@ -17,10 +17,4 @@ def loss_of(distance: Any, loss: Any) -> Loss:
         raise BadArgument(
             f"distance must be a function that takes a mesh, as geodesics.GeodesicDistance, not {distance!r}"
         )
-    if loss is None:
-        return LeastSquares()
-    if isinstance(loss, type) or not all(callable(getattr(loss, name, None)) for name in ("value", "step")):
-        there = ", ".join(f"{one.__name__}()" for one in ALL)
-        raise BadArgument(f"loss must be one of {there} of gmds.mds.losses, or another object like them, not {loss!r}")
-    found: Loss = loss
-    return found
+    return as_loss(loss)

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from numpy.typing import ArrayLike
+
 from geodesics import SurfacePoints
-from gmds.mds.losses import LeastSquares, Loss, Minimax, Power
+from geodesics.distance import as_points
+from gmds.mds.losses import LeastSquares, Loss, Minimax, Power, as_loss
 from gmds.mds.many_samples import MANY, solve_many
 from gmds.mds.problem import Problem
 from gmds.mds.solver import Solution, solve
@@ -14,7 +17,12 @@ STEPS = 10  # of each exponent, at the most: a bound, the next one goes on from 
 
 
 def solve_by_ladder(
-    problem: Problem, start: SurfacePoints, loss: Loss, *, max_iterations: int = 50, tolerance: float = 1e-3
+    problem: Problem,
+    start: SurfacePoints | ArrayLike,
+    loss: Loss | None = None,
+    *,
+    max_iterations: int = 50,
+    tolerance: float = 1e-3,
 ) -> Solution:
     r"""As `solve`, but a maximum, or a high power, is approached through lower powers of the residuals.
 
@@ -29,7 +37,7 @@ def solve_by_ladder(
     ----------
     problem, start, max_iterations, tolerance
         As of `solve`; the iterations are those of the first and of the last loss.
-    loss : Loss
+    loss : Loss, optional
         `Minimax`, or a `Power` above 2, goes up the ladder; any other is left to `solve`.
 
     Returns
@@ -59,6 +67,7 @@ def solve_by_ladder(
     >>> bool(most.stress == abs(most.residuals).max())
     True
     """
+    loss, start = as_loss(loss), as_points(problem.target_distance.mesh, start)
     rungs = rungs_below(loss)
     smooth = solve_many if len(problem) > MANY else solve
     if rungs:

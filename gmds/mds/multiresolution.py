@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from geodesics import SurfacePoints
+from geodesics.distance import as_points
 from geodesics.errors import BadArgument
 from geodesics.points import joined
 from gmds.mds.losses import Loss
@@ -17,7 +19,7 @@ from gmds.mds.solver import Solution, solve
 
 def solve_multiresolution(
     problem: Problem,
-    start: SurfacePoints,
+    start: SurfacePoints | ArrayLike,
     loss: Loss | None = None,
     *,
     growth: float = 2.0,
@@ -35,8 +37,8 @@ def solve_multiresolution(
     ----------
     problem : Problem
         Which distances are to be kept, of p samples.
-    start : SurfacePoints
-        Points of the target for the first k samples, k from 2 to p.
+    start : SurfacePoints or array_like of int
+        Points of the target, or vertices, for the first k samples, k from 2 to p.
     loss : Loss, optional
         How residuals add up; least squares unless given.
     growth : float
@@ -79,6 +81,7 @@ def solve_multiresolution(
     >>> len(solution.points)
     10
     """
+    start = as_points(problem.target_distance.mesh, start)
     count = len(start)
     if not 2 <= count <= len(problem) or not growth > 1:
         raise BadArgument(f"cannot grow {count} of {len(problem)} samples by a factor of {growth}: need 2 and above 1")

@@ -7,10 +7,12 @@ from dataclasses import dataclass
 from numbers import Real
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from geodesics import Distance, SurfacePoints
 from geodesics.arguments import whole_number
 from geodesics.arrays import Floats
+from geodesics.distance import as_points
 from geodesics.errors import BadArgument
 from gmds.mds.losses import LeastSquares
 from gmds.mds.problem import Problem
@@ -50,12 +52,16 @@ class PartialSolution:
     weights: Floats
     stresses: tuple[float, ...]
 
+    def __repr__(self) -> str:
+        counted = f"{len(self.weights)} points, {int((self.weights > 0.5).sum())} with a weight above 1/2"
+        return f"PartialSolution({counted}, stress {self.stresses[-1]:.4g} after {len(self.stresses) - 1})"
+
 
 def solve_partial(
     source_distance: Distance,
-    source_points: SurfacePoints,
+    source_points: SurfacePoints | ArrayLike,
     target_distance: Distance,
-    start: SurfacePoints,
+    start: SurfacePoints | ArrayLike,
     *,
     share: float = 0.7,
     rounds: int = 5,
@@ -75,9 +81,9 @@ def solve_partial(
     ----------
     source_distance, target_distance : Distance
         Distances of the two surfaces.
-    source_points : SurfacePoints
-        The p samples of the source, each of as much area as any other.
-    start : SurfacePoints
+    source_points : SurfacePoints or array_like of int
+        The p samples of the source, or vertices, each of as much area as any other.
+    start : SurfacePoints or array_like of int
         Where they are to begin, on the target.
     share : float
         How much of the samples has a counterpart, above 0 and at most 1.
@@ -126,6 +132,7 @@ def solve_partial(
         raise BadArgument(f"share must be a number above 0 and at most 1, not {share!r:.40}")
     rounds, max_iterations = whole_number(rounds, "rounds", 1), whole_number(max_iterations, "max_iterations", 0)
     even = Problem(source_distance, source_points, target_distance)
+    start = as_points(even.target_distance.mesh, start)
     weights = np.full(len(even), float(share))
     misfit = misfits(even, start)
     stresses, points = [float(weights @ misfit @ weights / 2)], start

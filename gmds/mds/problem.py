@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from geodesics import Distance, SurfacePoints
 from geodesics.arrays import Bools, Floats, Integers
 from geodesics.caching import cached_property
-from geodesics.distance import as_distance
+from geodesics.distance import as_distance, as_points
 from geodesics.errors import BadArgument
 from geodesics.tracing import barycentric_gradient
 from gmds.mds.chosen_pairs import chosen_pairs, lengths_of, pair_weights
@@ -34,8 +34,8 @@ class Problem:
     ----------
     source_distance, target_distance : Distance
         Distances of the two surfaces.
-    source_points : SurfacePoints
-        The p samples of the source.
+    source_points : SurfacePoints or array_like of int
+        The p samples of the source, or vertices.
     weights : array_like of shape (p,) or (p, p), optional
         Of the samples (:math:`w_{ij} = w_i w_j`) or of the pairs; they are scaled to mean 1.
     pairs : array_like of shape (r, 2), optional
@@ -75,12 +75,13 @@ class Problem:
     def __init__(
         self,
         source_distance: Distance,
-        source_points: SurfacePoints,
+        source_points: SurfacePoints | ArrayLike,
         target_distance: Distance,
         weights: ArrayLike | None = None,
         pairs: ArrayLike | None = None,
     ) -> None:
         source_distance, target_distance = as_distance(source_distance), as_distance(target_distance)
+        source_points = as_points(source_distance.mesh, source_points)
         count = len(source_points)
         first, second = chosen_pairs(pairs, count)
         lengths = lengths_of(pairwise(source_distance, source_points), first, second)
@@ -123,8 +124,9 @@ class Problem:
         object.__setattr__(other, "source_points", points)
         return other
 
-    def at(self, points: SurfacePoints) -> Placement:
-        """The problem seen from target points (p,), with residuals and their derivative."""
+    def at(self, points: SurfacePoints | ArrayLike) -> Placement:
+        """The problem seen from target points (p,), or vertices, with residuals and their derivative."""
+        points = as_points(self.target_distance.mesh, points)
         if len(points) != len(self):
             raise BadArgument(f"{len(self)} samples need {len(self)} target points, not {len(points)}")
         if points.mesh is not self.target_distance.mesh:

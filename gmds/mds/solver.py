@@ -6,13 +6,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from geodesics import SurfacePoints
 from geodesics.arrays import Floats
 from gmds.errors import SolverError
 from gmds.mds.descent import Settler
 from gmds.mds.frozen_fields import remarch
-from gmds.mds.losses import LeastSquares, Loss
+from gmds.mds.losses import Loss, as_loss
 from gmds.mds.pair_distances import FieldPairs
 from gmds.mds.problem import Problem
 from gmds.mds.status import Status
@@ -69,7 +70,7 @@ class Solution:
 
 def solve(
     problem: Problem,
-    start: SurfacePoints,
+    start: SurfacePoints | ArrayLike,
     loss: Loss | None = None,
     *,
     max_iterations: int = 50,
@@ -89,8 +90,8 @@ def solve(
     ----------
     problem : Problem
         Which distances are to be kept, of p samples.
-    start : SurfacePoints
-        p points of the target.
+    start : SurfacePoints or array_like of int
+        p points of the target, or vertices.
     loss : Loss, optional
         How residuals add up; least squares unless given.
     max_iterations : int
@@ -130,8 +131,9 @@ def solve(
     >>> bool(solution.stress < gmds.Huber().value(problem.at(start).residuals))
     True
     """
-    loss = LeastSquares() if loss is None else loss
-    here = problem.at(start)
+    if not isinstance(problem, Problem):
+        raise TypeError(f"a problem is expected, not {type(problem).__name__}; make one with gmds.Problem")
+    loss, here = as_loss(loss), problem.at(start)
     stress = loss.value(here.residuals)
     if not np.isfinite(stress):
         raise SolverError(f"the stress at the start is {stress}: a distance is not a number")

@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geodesics import Distance, Mesh, SurfacePoints, farthest_point_sampling
+from geodesics.arguments import is_whole
 from geodesics.arrays import Floats, Integers
-from geodesics.distance import as_points
+from geodesics.distance import as_distance, as_points
 from geodesics.errors import BadArgument
 from geodesics.topology.components import vertex_components
 
@@ -73,9 +74,9 @@ class TabulatedDistance:
     signature: Floats
 
     def __init__(self, distance: Distance, landmarks: int = 300, rank: int = 120) -> None:
-        if landmarks < 2 or rank < 1:
-            raise BadArgument(f"a table needs 2 landmarks and rank 1 at least, not {landmarks} and {rank}")
-        mesh = distance.mesh
+        if not (is_whole(landmarks) and is_whole(rank)) or landmarks < 2 or rank < 1:
+            raise BadArgument(f"a table needs 2 landmarks and rank 1 at least, not {landmarks!r:.40} and {rank!r:.40}")
+        mesh = as_distance(distance).mesh
         label = vertex_components(mesh)
         chosen = farthest_point_sampling(distance, min(landmarks, int((label >= 0).sum())))
         fields = distance.field(SurfacePoints.at_vertices(mesh, chosen))

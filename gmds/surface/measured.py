@@ -145,7 +145,7 @@ def measure(mesh: Mesh, *, reflected: bool = False) -> Surface:
     --------
     match : Measures what it is given.
     """
-    clean = cleaned(mesh)
+    clean = cleaned(mesh := Mesh.from_object(mesh))
     if clean is None:
         return measured_as_it_is(mesh, reflected=reflected)
     return replace(measured_as_it_is(clean.mesh, reflected=reflected), clean=clean)

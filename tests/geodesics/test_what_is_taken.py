@@ -10,7 +10,7 @@ from generated_shapes import bumpy_sphere, icosphere
 
 import geodesics
 from geodesics import SurfacePoints, eigenpairs, embedded, galerkin_mass, lumped_mass, stiffness
-from geodesics.errors import IndexOutOfRange
+from geodesics.errors import IndexOutOfRange, NonIntegralFace
 from geodesics.signatures import resolved_times
 
 MESH = bumpy_sphere(1)
@@ -110,3 +110,82 @@ def test_points_that_are_none_are_refused(distance: Any) -> None:
 def test_what_would_do_is_told(call: Any, says: str) -> None:
     with pytest.raises(TypeError, match=says):
         call()
+
+
+NOT_A_MESH = "a mesh is expected, not list; for example geodesics.Mesh"
+
+
+@pytest.mark.parametrize("given", [[MESH, MESH], [], None])
+@pytest.mark.parametrize(
+    "of_a_mesh",
+    [
+        *(getattr(geodesics, name) for name in ("angle_defect", "gaussian_curvature", "mean_curvature")),
+        *(getattr(geodesics, name) for name in ("principal_curvatures", "vertex_normals", "orient_faces")),
+        *(
+            getattr(geodesics, name)
+            for name in ("embedded", "scale_invariant", "min_curvature", "equi_affine", "affine")
+        ),
+        lambda given: geodesics.conformal(given, np.ones(3)),
+        geodesics.plot,
+    ],
+)
+def test_what_is_no_mesh_is_told(of_a_mesh: Any, given: Any) -> None:
+    with pytest.raises(TypeError, match=NOT_A_MESH.replace("list", type(given).__name__)):
+        of_a_mesh(given)
+
+
+def test_meshes_of_other_libraries_have_curvature_too() -> None:
+    import trimesh
+
+    other = trimesh.Trimesh(MESH.vertices, MESH.faces, process=False)
+    assert np.array_equal(geodesics.gaussian_curvature(other), geodesics.gaussian_curvature(MESH))  # type: ignore[arg-type]
+    assert np.array_equal(geodesics.scale_invariant(other).mass, geodesics.scale_invariant(MESH).mass)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("wrong", [1.5, [0, 2.5], float("nan")])
+@each_distance
+def test_a_vertex_is_a_whole_number(distance: Any, wrong: Any) -> None:
+    for call in (distance.field, lambda points: geodesics.distance_matrix(distance, points)):
+        with pytest.raises(NonIntegralFace, match="is no whole number"):
+            call(wrong)
+    with pytest.raises(NonIntegralFace, match=r"sample . = .* is no whole number"):
+        geodesics.voronoi_cells(distance, wrong)
+
+
+@each_distance
+def test_no_points_are_told_from_an_empty_list(distance: Any) -> None:
+    assert distance.field([]).shape == (0, MESH.n_vertices)
+    assert geodesics.distance_matrix(distance, []).shape == (0, 0)
+    with pytest.raises(TypeError, match="point indices are expected, not None"):
+        distance.field(None)
+    with pytest.raises(TypeError, match=r"not Mesh$"):
+        distance.field(MESH)
+
+
+@pytest.mark.parametrize(
+    ("call", "says"),
+    [
+        (lambda: geodesics.heat_kernel_signature(SPECTRUM, "a"), "times must be an array, not 'a'$"),
+        (lambda: geodesics.scale_invariant_heat_kernel_signature(SPECTRUM, None, 2.5), "n_frequencies must be"),
+        (lambda: geodesics.DiffusionDistance(SPECTRUM, "a"), "must be a finite number >= 0, not 'a'"),
+        (lambda: geodesics.scale_invariant(MESH, exponent="a"), "exponent must be a finite number, not 'a'"),
+        (lambda: geodesics.scale_invariant(MESH, smoothing=-1), "smoothing must be a finite number >= 0, not -1"),
+        (lambda: geodesics.affine(MESH, regularisation="a"), "regularisation must be a finite number >= 0, not 'a'"),
+        (lambda: geodesics.equi_affine(MESH, regularisation=[1]), "regularisation must be a finite number >= 0"),
+        (lambda: geodesics.conformal(MESH, np.ones(3)), "factor must be 42 numbers, one for each vertex"),
+        (lambda: geodesics.farthest_point_sampling(DISTANCES["commute"], 5.5), "count must be 1 to 42, not 5.5"),
+        (
+            lambda: geodesics.farthest_point_sampling(DISTANCES["commute"], 5, 1.5),
+            "first must be a vertex on the surface, not 1.5",
+        ),
+    ],
+)
+def test_numbers_that_are_none_are_refused(call: Any, says: str) -> None:
+    with pytest.raises((TypeError, ValueError), match=says):
+        call()
+
+
+def test_the_field_of_one_point_can_be_drawn() -> None:
+    field = DISTANCES["geodesic"].field(0)
+    one, other = (geodesics.plot(MESH, values) for values in (field, field[0]))
+    assert np.array_equal(one.data[0]["intensity"], other.data[0]["intensity"])
