@@ -41,10 +41,10 @@ def report(found: Mapping[str, Rows], cells: Sequence[str], about: str) -> list[
     return [about, "", *table(head, lines)]
 
 
-def write(output: Path, version: str, tables: Mapping[str, Sequence[str]], sets: Mapping[str, int]) -> None:
-    """plain.md, of the rows that are there: a table of the cells of each kind, by the prefix of its files."""
+def write(output: Path, version: str, tables: Mapping[str, tuple[Sequence[str], Mapping[str, int]]]) -> None:
+    """plain.md, of the rows that are there: a table of the cells of each kind and its sets, by the prefix of files."""
     sections = ["# Plain generalised multidimensional scaling", "", f"Measured at {version}. {ABOUT}", ""]
-    for prefix, cells in tables.items():
+    for prefix, (cells, sets) in tables.items():
         found = {name: read_rows(output / f"{prefix}_{name}.csv", version) for name in sets}
         if any(found.values()):
             sections += report({name: rows for name, rows in found.items() if rows}, cells, TITLES[prefix])
@@ -74,7 +74,7 @@ def of_truth(path: Path) -> list[str]:
 
 ABOUT = f"""Mean geodesic error x100, direct, of `match(distance=..., loss=...)`, without registration
 (the median; how many are above {FAILED:g} or failed, of how many: where that differs, means are of other pairs).
-Distances are those of the metric (K^2 + eps^2)^(a/2) g. The files plain_*.csv tell the status as it was before
+Distances are those of the metric (K^2 + eps^2)^(a/2) g. The files plain_*.csv tell the status of each map, counted in
 trust_plain.md; `cpu_seconds` lack what another cell of the pair had found already."""
 TITLES = {
     "plain": """## Distances and losses
@@ -87,7 +87,13 @@ not run: it is for Python 2 with wxPython and OpenGL, is not on PyPI, needs all 
 vertex, and starts by ICP, so that both shapes have to be in one pose.""",
     "plain_grid": """## What a, eps and smoothing do to geodesic distances
 
-`python -m benchmarks.accuracy.plain --half development --grid`""",
+`python -m benchmarks.accuracy.plain --half development --grid`, of `scaled` the pairs that
+`python -m benchmarks.accuracy.development_pairs` makes.""",
+    "plain_hard": """## Other classes and species
+
+`python -m benchmarks.accuracy.plain --half reporting --hard`: gorilla and human (TOSCA), animals of other species and
+half scans (SHREC'20). No distance is kept between these, so the figures say what plain GMDS is not for; whether it says
+so itself is in trust_plain.md.""",
 }
 OF_TRUTH = """## The distance or the solver
 

@@ -19,6 +19,7 @@ import numpy as np
 from benchmarks.accuracy.plain import CELLS, EVERY, distance
 from benchmarks.accuracy.runs import chosen_pairs
 from benchmarks.places import RESULTS
+from benchmarks.trust.plain import thinned
 from benchmarks.trust.plain_signs import key_of
 from geodesics import SurfacePoints, read_mesh
 from gmds.benchmarking.pairs import Pair
@@ -58,7 +59,7 @@ def stresses(pair: Pair, folder: Path) -> Iterator[tuple[str, float, float]]:
         kind, *settings, _ = cell.split()
         ours, theirs = (distance(one.mesh, kind, *map(float, settings)) for one in (source, target))
         with np.load(file) as kept:
-            shared, place, at = np.intersect1d(kept["rows"], vertices, return_indices=True)
+            shared, place, at = thinned(*np.intersect1d(kept["rows"], vertices, return_indices=True))
             found = SurfacePoints(target.mesh, back[kept["face"][place]], kept["barycentric"][place])
         true = truth[at]
         true = SurfacePoints(target.mesh, back[true.face], true.barycentric)

@@ -28,14 +28,15 @@ from benchmarks.trust.fit import HEAD
 from benchmarks.trust.judged import JudgedMap, counts_of
 from benchmarks.trust.model import Model, calibration_error, fitted
 from benchmarks.trust.page import RIGHT, STATUSES, WRONG
-from benchmarks.trust.plain_signs import key_of
+from benchmarks.trust.plain_signs import JUDGED, key_of
 from geodesics import GeodesicDistance, Mesh, embedded, read_mesh
+from geodesics.arrays import Integers
 from gmds.benchmarking.datasets import dataset_pairs
 from gmds.benchmarking.pairs import Pair
 from gmds.maps.confidence import RADIUS
 from gmds.matching.rating import status_of
 
-SETS = ("faust_5k", "tosca_5k", "tosca_cross_5k", "scaled")
+SETS = ("faust_5k", "tosca_5k", "tosca_cross_5k", "scaled", "shrec20")
 WEIGHTS_FILE = ROOT / "gmds" / "matching" / "plain_weights.py"
 # Few, as there are few pairs: what is local, and what the whole map costs. Chosen by the error of kinds left out.
 CHOSEN = ("spectral", "stress", "folds", "strain", "folded", "rival", "whole_energy", "simplified_misfit")
@@ -52,7 +53,7 @@ def maps_of(folder: Path, pairs: Sequence[tuple[str, Pair]], half: str, names: S
         done.add(files[0])
         vertices, truth, _ = pair.truth(source, target)
         with np.load(files[0]) as first:
-            shared, place, at = np.intersect1d(first["rows"], vertices, return_indices=True)
+            shared, place, at = thinned(*np.intersect1d(first["rows"], vertices, return_indices=True))
         fields = GeodesicDistance(embedded(target)).field(truth[at]) / np.sqrt(target.area)
         for file in files:
             with np.load(file) as kept:
@@ -66,6 +67,11 @@ def maps_of(folder: Path, pairs: Sequence[tuple[str, Pair]], half: str, names: S
                 where = source.vertices[shared]
                 found.append(JudgedMap(name, kind, half, "", signs, error, valid, where, float(kept["margin"])))
     return found
+
+
+def thinned(*rows: Integers) -> list[Integers]:
+    """About `JUDGED` of the rows, all over; all of them where there are fewer."""
+    return [one[:: max(1, len(one) // JUDGED)] for one in rows]
 
 
 @functools.lru_cache(150)

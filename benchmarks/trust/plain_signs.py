@@ -27,7 +27,7 @@ from gmds.shapes import humanoid, quadruped, truth
 from gmds.surface.measured import SMOOTHING
 
 SIGNS = "GMDS_PLAIN_SIGNS"  # of the environment: the folder of `--signs`
-JUDGED = 400  # vertices of a map, about, whose signs are kept
+JUDGED = 400  # vertices of a map, about, by which it is judged
 
 
 @contextlib.contextmanager
@@ -45,17 +45,16 @@ def observed() -> Iterator[list[tuple[MapCandidate, float, Signs]]]:
 
 @contextlib.contextmanager
 def noted(name: str, source: geodesics.Mesh, target: geodesics.Mesh) -> Iterator[None]:
-    """The signs of the map of a cell, of some vertices, in a file of the folder of `SIGNS` if there is one."""
+    """The signs of the map of a cell in a file of the folder of `SIGNS` if there is one."""
     folder = os.environ.get(SIGNS)
     with observed() as seen:
         yield
     if folder is None or not seen:
         return
     candidate, margin, signs = seen[0]
-    rows = np.arange(0, source.n_vertices, max(1, source.n_vertices // JUDGED))
-    points = original_points(candidate)[rows]
+    rows, points = np.arange(source.n_vertices), original_points(candidate)
     found = {"rows": rows, "face": points.face, "barycentric": points.barycentric, "margin": margin, "cell": name}
-    values = np.stack([signs[one][rows] for one in signs], axis=1)
+    values = np.stack([signs[one] for one in signs], axis=1).astype(np.float32)
     np.savez_compressed(
         Path(folder) / f"{key_of(source, target)}_{name.replace(' ', '_')}.npz",
         **found,
