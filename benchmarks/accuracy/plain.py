@@ -38,9 +38,9 @@ from gmds.matching.pair import SurfacePair
 from gmds.matching.proposals import proposals
 from gmds.surface.measured import EIGENFUNCTIONS, SMOOTHING, Surface, measure
 
-EVERY = {"tosca_5k": 20, "faust_5k": 12, "scaled": 2}  # four or five pairs of each: a cell takes seconds
+EVERY = {"tosca_5k": 22, "faust_5k": 16, "scaled": 4}  # three pairs of each: a cell takes seconds
 GRID_EVERY = {"tosca_5k": 22, "faust_5k": 16, "scaled": 2}  # of the development halves
-HARD = {"tosca_cross_5k": 5, "shrec20": 2}  # other classes and species, of which maps may be wrong: four pairs of each
+HARD = {"tosca_cross_5k": 9, "shrec20": 4}  # other classes and species, of which maps may be wrong: two pairs of each
 LOSSES: dict[str, Callable[[], Any]] = {"LeastSquares": gmds.LeastSquares, "Huber": gmds.Huber, "Minimax": gmds.Minimax}
 FEW = {"L2_50": gmds.LeastSquares, "L4_50": lambda: gmds.Power(4.0)}  # with 50 samples, as the TOSCA toolbox has them
 METRICS = {"diffusion": (0.0, 1.0), "commute": (0.0, 1.0), "geodesic": (0.0, 0.5, 1.0)}
