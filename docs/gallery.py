@@ -35,12 +35,17 @@ PIXELS = 300  # of the longer side of a surface
 Names = dict[str, Any]  # what a script has computed, by the names it gave
 
 
+def called(metric: Callable[..., Any]) -> str:
+    """A metric in words."""
+    return {"embedded": "metric of space"}.get(metric.__name__, f"{metric.__name__.replace('_', '-')} metric")
+
+
 def distances(path: Path, example: Names) -> None:
     """01: distances from the nose, in two metrics, as shares of the largest."""
     mesh, panels = example["mesh"], []
     for metric in (geodesics.embedded, geodesics.scale_invariant):
         field = geodesics.GeodesicDistance(metric(mesh)).field(example["start"])[0]
-        panels.append((metric.__name__, mesh, field / field.max()))
+        panels.append((called(metric), mesh, field / field.max()))
     write_values(path, panels, pixels=PIXELS, isolines=True, label="distance / the largest")
 
 
@@ -58,14 +63,14 @@ def before_and_after(path: Path, example: Names) -> None:
             mesh = example[when]
             sample = geodesics.SurfacePoints.at_vertices(mesh, example["samples"][:1])
             field = example["distances"]["geodesic"](metric(mesh)).field(sample)[0]
-            panels.append((f"{metric.__name__}, {when}", mesh, field / field.mean()))
-    write_values(path, panels, pixels=PIXELS * 2 // 3, isolines=True, label="distance / the mean")
+            panels.append((f"{called(metric)}, {when}", mesh, field / field.mean()))
+    write_values(path, panels, pixels=PIXELS, columns=2, isolines=True, label="distance / the mean")
 
 
 def cells(path: Path, example: Names) -> None:
     """04: Voronoi cells, in the metric that the script looked at last."""
     meshes = [(when, example[when], found) for when, found in zip(("before", "after"), example["cells"], strict=True)]
-    write_values(path, meshes, labels=True, title=example["metric"].__name__, pixels=PIXELS)
+    write_values(path, meshes, labels=True, title=called(example["metric"]), pixels=PIXELS)
 
 
 def signatures(path: Path, example: Names) -> None:
@@ -73,7 +78,7 @@ def signatures(path: Path, example: Names) -> None:
     signature = example["signatures"]["heat kernel"]
     found = [np.log(signature(spectrum)[:, 4]) for spectrum in example["spectra"]]
     panels = [(when, example[when], values) for when, values in zip(("before", "after"), found, strict=True)]
-    write_values(path, panels, title="scale_invariant", pixels=PIXELS, label="log of the heat kernel signature")
+    write_values(path, panels, title="scale-invariant metric", pixels=PIXELS, label="log of the heat kernel signature")
 
 
 def map_and_errors(path: Path, example: Names) -> None:
@@ -109,7 +114,7 @@ def labels(path: Path, example: Names) -> None:
 
 def eigenfunctions(path: Path, example: Names) -> None:
     """10: the first eigenfunction, in the metric that the script looked at last."""
-    title = example["metric"].__name__
+    title = called(example["metric"])
     write_values(path, example["panels"], title=title, pixels=PIXELS, signed=True, label="first eigenfunction")
 
 
@@ -130,7 +135,7 @@ def canonical_forms(path: Path, example: Names) -> None:
             u, _, vt = np.linalg.svd(second[example["partner"]].T @ first)
             for (pose, mesh), positions in zip(example["poses"].items(), (first, second @ u @ vt), strict=True):
                 panels.append((f"{name}, {pose}", outside_out(positions, mesh), mesh.vertices[:, 0]))
-    write_values(path, panels, pixels=PIXELS * 2 // 3, label="x of the animal")
+    write_values(path, panels, pixels=PIXELS, columns=2, label="x of the animal")
 
 
 def outside_out(positions: Any, mesh: geodesics.Mesh) -> geodesics.Mesh:
@@ -188,7 +193,7 @@ def weighted_samples(path: Path, example: Names) -> None:
     """17: the weight of the nearest sample, and the surface that lacks a part."""
     target = example["target"]
     panels = [("weights", example["source"], example["weights"]), ("target", target, np.ones(target.n_vertices))]
-    write_values(path, panels, pixels=PIXELS)
+    write_values(path, panels, pixels=PIXELS, label="weight")
 
 
 def specimen(path: Path, _: Names) -> None:

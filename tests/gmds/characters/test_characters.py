@@ -17,6 +17,7 @@ from geodesics.io import read_parts
 from geodesics.io.gltf_accessor import read_accessor
 from geodesics.io.gltf_container import Gltf, open_gltf
 from geodesics.io.gltf_nodes import placed_meshes, skin_of, world_matrices
+from gmds.appearance.keeping import not_kept
 from gmds.appearance.reading import BadLook
 from gmds.characters import carry_scene
 from gmds.characters.writing import heaviest
@@ -222,6 +223,7 @@ def test_the_character_of_the_demo_is_a_whole_one(tmp_path: Path) -> None:
     assert np.allclose(scene.weights, np.load(tmp_path / "bones.npy"), atol=1e-6) and len(scene.bones) == 4
     assert [len(each) for each in scene.shapes.values()] == [1] and list(scene.coordinates) == ["TEXCOORD_0"]
     assert [each["name"] for each in scene.gltf.tree["materials"]] == ["fur"] and scene.gltf.tree["images"]
+    assert not_kept(tmp_path / "wolf.glb") == ["the texture"] and not_kept(tmp_path / "wolf.glb", materials=True) == []
     content, told = carry_scene(identity(wolf, wolf), path)
     again = open_gltf(content, tmp_path / "again.glb")
     assert (told.bones, told.shapes, told.materials) == (4, 1, ["fur"])
