@@ -30,6 +30,7 @@ from gmds.pictures import write_picture, write_values
 
 ROOT = Path(__file__).resolve().parents[1]
 PICTURES = ROOT / "docs" / "gallery"
+LARGE = 130_000  # bytes of a picture that is drawn in fewer colours; set by hand
 PIXELS = 300  # of the longer side of a surface
 
 Names = dict[str, Any]  # what a script has computed, by the names it gave
@@ -198,9 +199,15 @@ def weighted_samples(path: Path, example: Names) -> None:
 
 def specimen(path: Path, _: Names) -> None:
     """The morphometrics script has drawn its specimens itself; one of them, in fewer colours."""
+    shutil.copy(Path("morphometrics") / "pictures" / "long_legs.png", path)
+    in_fewer_colours(path)
+
+
+def in_fewer_colours(path: Path) -> None:
+    """A picture with 128 colours, a third as large."""
     from PIL import Image
 
-    image = Image.open(Path("morphometrics") / "pictures" / "long_legs.png").convert("RGB")
+    image = Image.open(path).convert("RGB")
     image.quantize(128).save(path, optimize=True)
 
 
@@ -237,6 +244,8 @@ def draw(name: str, folder: Path) -> Path:
             DRAWN[name](picture, runpy.run_path(str(script), run_name="__main__"))
         finally:
             sys.path[:] = path
+    if picture.stat().st_size > LARGE:
+        in_fewer_colours(picture)
     return picture
 
 
