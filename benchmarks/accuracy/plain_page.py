@@ -9,6 +9,7 @@ import numpy as np
 
 from benchmarks.accuracy.runs import Rows, read_rows
 from benchmarks.markdown import table
+from benchmarks.trust.page import RIGHT, STATUSES, WRONG
 from gmds.benchmarking.run import BenchmarkRow
 from gmds.files.table import read_table
 
@@ -52,8 +53,23 @@ def write(output: Path, version: str, tables: Mapping[str, tuple[Sequence[str], 
         found = {name: read_rows(file, SAME_MAPS) | read_rows(file, version) for name, file in files.items()}
         if any(found.values()):
             sections += report({name: rows for name, rows in found.items() if rows}, cells, TITLES[prefix])
+    sections += of_status(output, version, tables)
     sections += of_truth(output / "plain_truth.csv")
     (output / "plain.md").write_text("\n".join(sections), encoding="utf-8")
+
+
+def of_status(output: Path, version: str, tables: Mapping[str, tuple[Sequence[str], Mapping[str, int]]]) -> list[str]:
+    """How many maps of reporting pairs are right, and which status they have."""
+    lines = []
+    for prefix, pairs in REPORTED.items():
+        files = [output / f"{prefix}_{name}.csv" for name in tables[prefix][1]]
+        rows = [row for file in files for row in read_rows(file, version).values() if row.status in STATUSES]
+        errors = np.array([row.direct for row in rows], dtype=np.float64)
+        kinds = {"right": errors < RIGHT, "between": (errors >= RIGHT) & (errors <= WRONG), "wrong": errors > WRONG}
+        for kind, those in kinds.items():
+            words = [row.status for row, one in zip(rows, those, strict=True) if one]
+            lines.append([pairs, kind, len(words), *map(words.count, STATUSES)])
+    return [OF_STATUS, "", *table(["pairs", "maps", "how many", *STATUSES], lines)]
 
 
 def of_truth(path: Path) -> list[str]:
@@ -98,8 +114,12 @@ vertex, and starts by ICP, so that both shapes have to be in one pose.""",
 
 `python -m benchmarks.accuracy.plain --half reporting --hard`: gorilla and human (TOSCA), animals of other species and
 half scans (SHREC'20). No distance is kept between these, so the figures say what plain GMDS is not for; whether it says
-so itself is in trust_plain.md.""",
+so itself is told below.""",
 }
+REPORTED = {"plain": "of one class", "plain_hard": "of other classes and species"}
+OF_STATUS = f"""## Status of these maps
+
+Of those measured with the shipped model of confidence: right below {RIGHT:g}, wrong above {WRONG:g}."""
 OF_TRUTH = """## The distance or the solver
 
 `python -m benchmarks.accuracy.plain_truth`: root mean square residual, in per cent of the mean distance, near pairs

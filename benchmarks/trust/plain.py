@@ -145,7 +145,7 @@ def main() -> None:
         "# How sure a plain map is of itself",
         "",
         f"`python -m benchmarks.trust.plain`: there is how. Fitted to {len(ours)} maps of development pairs of "
-        f"{', '.join(kinds)}.",
+        f"{', '.join(kinds)}. Reporting maps of other classes and species, which are wrong more often: plain.md.",
         "",
         *lines_of("Reporting pairs", theirs, [model] * len(theirs)),
         *lines_of("Development pairs, each kind by a model without it", ours, [without[one.kind] for one in ours]),
