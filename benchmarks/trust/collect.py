@@ -29,6 +29,7 @@ from gmds.correspondence import Correspondence
 from gmds.evaluation import geodesic_error, protocol_subset
 from gmds.matching import rating
 from gmds.matching.candidates import MapCandidate
+from gmds.matching.rivals import Rivals
 from gmds.matching.signs import Signs, signs_of
 from gmds.shapes import quadruped
 from gmds.surface.measured import measure
@@ -61,11 +62,11 @@ def collected(case: Case) -> dict[str, Any]:
     known, rng = case.load(), np.random.default_rng([0, *case.name.encode()])
     source, target = turned(known.source, rng), turned(known.target, rng)
     known = Known(source, target, known.vertices, type(known.truth)(target, known.truth.face, known.truth.barycentric))
-    seen: list[tuple[MapCandidate, Signs]] = []
+    seen: list[tuple[MapCandidate, Rivals, Signs]] = []
 
-    def observed(candidate: MapCandidate, margin: float) -> Signs:
-        seen.append((candidate, signs_of(candidate, margin)))
-        return seen[-1][1]
+    def observed(candidate: MapCandidate, rivals: Rivals) -> Signs:
+        seen.append((candidate, rivals, signs_of(candidate, rivals)))
+        return seen[-1][-1]
 
     started = time.process_time()
     with mock.patch.object(rating, "signs_of", observed):
@@ -75,13 +76,14 @@ def collected(case: Case) -> dict[str, Any]:
         protocol_subset(len(known.vertices), POINTS) if len(known.vertices) > POINTS else np.arange(len(known.vertices))
     )
     vertices = known.vertices[chosen]
-    candidate, signs = seen[-1]
+    candidate, rivals, signs = seen[-1]
     rows = _rows(answer, candidate, vertices)
     return {
         "kind": case.kind,
         "half": case.half,
         "status": answer.status.name,
         "names": list(signs),
+        "undisputed": rivals.undisputed[rows],
         "signs": np.stack([values[rows] for values in signs.values()], axis=1),
         "error": geodesic_error(answer, known.truth[chosen], vertices),
         "valid": answer.valid[vertices],

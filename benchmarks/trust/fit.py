@@ -50,8 +50,8 @@ def main() -> None:
     names, maps = collected(asked.folder)
     model = fit([one for one in maps if one.half == "development"])
     without = {kind: fit([one for one in maps if one.kind != kind]) for kind in {one.kind for one in maps}}
-    apart = {one.name: without[one.kind].confidence(one.signs) for one in maps}
-    lines = page(maps, {one.name: model.confidence(one.signs) for one in maps}, apart)
+    apart = {one.name: one.undisputed * without[one.kind].confidence(one.signs) for one in maps}
+    lines = page(maps, {one.name: one.undisputed * model.confidence(one.signs) for one in maps}, apart)
     if asked.write:
         (RESULTS / "trust.md").write_text("\n".join(lines), encoding="utf-8")
         WEIGHTS_FILE.write_text(source_of(names, model), encoding="utf-8")
@@ -69,7 +69,7 @@ def fit(maps: Sequence[JudgedMap]) -> Model:
 def log_odds(maps: Sequence[JudgedMap], model: Model) -> list[float]:
     """What odds change by at `RADII`, on the development half."""
     chosen = [one for one in maps if one.half == "development"]
-    confidence = np.concatenate([model.confidence(one.signs[one.valid]) for one in chosen])
+    confidence = np.concatenate([(one.undisputed * model.confidence(one.signs))[one.valid] for one in chosen])
     error = np.concatenate([one.error[one.valid] for one in chosen])
     return [shift(confidence, error <= radius, counts_of(chosen)) for radius in RADII]
 

@@ -12,7 +12,10 @@ from geodesics.arrays import Bools, Floats
 
 
 class JudgedMap(NamedTuple):
-    """A map that was collected: signs (p, k), errors (p,) and whether points are `valid`, of points of the source."""
+    """A map that was collected: signs (p, k), errors (p,) and whether points are `valid`, of points of the source.
+
+    `undisputed` (p,), or 1: how likely its points are beside those of other maps (`gmds.matching.rivals`).
+    """
 
     name: str
     kind: str
@@ -23,6 +26,7 @@ class JudgedMap(NamedTuple):
     valid: Bools
     positions: Floats
     margin: float
+    undisputed: Floats | float = 1.0
 
 
 def collected(folder: Path) -> tuple[list[str], list[JudgedMap]]:
@@ -34,7 +38,7 @@ def collected(folder: Path) -> tuple[list[str], list[JudgedMap]]:
             names = list(map(str, rows["names"]))
             told = (str(rows[name]) for name in ("kind", "half", "status"))
             arrays = (rows[name] for name in ("signs", "error", "valid", "positions"))
-            maps.append(JudgedMap(file.stem, *told, *arrays, float(rows["margin"])))
+            maps.append(JudgedMap(file.stem, *told, *arrays, float(rows["margin"]), rows["undisputed"]))
     return names, maps
 
 

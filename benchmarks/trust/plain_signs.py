@@ -22,6 +22,7 @@ import gmds
 from gmds.matching import rating
 from gmds.matching.candidates import MapCandidate
 from gmds.matching.result import original_points
+from gmds.matching.rivals import Rivals
 from gmds.matching.signs import Signs, signs_of
 from gmds.shapes import humanoid, quadruped, truth
 from gmds.surface.measured import SMOOTHING
@@ -35,8 +36,8 @@ def observed() -> Iterator[list[tuple[MapCandidate, float, Signs]]]:
     """The candidate that was rated last, its margin and its signs, as the one entry of a list."""
     seen: list[tuple[MapCandidate, float, Signs]] = []
 
-    def looked_at(candidate: MapCandidate, margin: float) -> Signs:
-        seen[:] = [(candidate, margin, signs_of(candidate, margin))]
+    def looked_at(candidate: MapCandidate, rivals: Rivals) -> Signs:
+        seen[:] = [(candidate, rivals.margin, signs_of(candidate, rivals))]
         return dict(seen[0][2])
 
     with mock.patch.object(rating, "signs_of", looked_at):

@@ -48,7 +48,7 @@ def annealed(pair: SurfacePair, maps: Sequence[Proposal]) -> list[Proposal]:
     annealing = Annealing(*pair.simplified, (pair.source.regular, pair.target.regular))
 
     def again(one: Proposal) -> Proposal:
-        return replace(Proposal.of(pair, annealing.annealed(one.registered.y)), annealed=True)
+        return replace(Proposal.of(pair, annealing.annealed(one.registered.y)), improved=True)
 
     found = side_by_side(again, likeliest)
     gain = min(one.neg_log_likelihood for one in likeliest) - min(one.neg_log_likelihood for one in found)

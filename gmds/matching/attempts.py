@@ -19,8 +19,9 @@ from gmds.matching.candidates import make_candidate
 from gmds.matching.given_distances import GivenDistances
 from gmds.matching.pair import SurfacePair
 from gmds.matching.part_answers import PartAnswer, Parts, likelier_part, maps_of_parts
-from gmds.matching.proposals import Proposal, likely_maps, proposals
+from gmds.matching.proposals import Proposal, Proposed, likely_maps, proposals
 from gmds.matching.rating import AMBIGUOUS_MARGIN
+from gmds.matching.recombination import recombined
 from gmds.matching.result import correspondence_of
 from gmds.matching.steps import Report, rounds_of, starts_of
 from gmds.mds.losses import Loss
@@ -78,7 +79,7 @@ class Attempt:
         pair = SurfacePair(source, image.of(target), wanted.landmarks, image.reverses)
         rounds, given = rounds_of(pair, wanted.distance)
         found = proposals(pair, rounds, starts_of(pair), lambda share: wanted.report("proposing", 0.2 + 0.3 * share))
-        maps = [*found.maps, *([] if given is not None or found.isometric else annealed(pair, found.maps))]
+        maps = found.maps if given is not None or found.isometric else improved(pair, found)
         pair = replace(pair, isometric=found.isometric)
         return cls(image, pair, likely_maps(maps, pair.simplified[0].areas), given, wanted)
 
@@ -104,6 +105,12 @@ class Attempt:
         both = [(one.curvature, one.curvature_back) for ways in (*of_maps, *of_parts) for one in ways]
         values = np.reshape(both, (-1, 4))
         return float(np.log(np.maximum(1 - np.clip(values, 0.0, 1.0) ** 2, TINY)).sum(axis=1).min() / 2)
+
+
+def improved(pair: SurfacePair, found: Proposed) -> list[Proposal]:
+    """The maps that were found, and what annealing makes of them, and what can be put together of all."""
+    maps = [*found.maps, *annealed(pair, found.maps)]
+    return [*maps, *recombined(pair, maps, found.settled)]
 
 
 def attempted(source: Surface, target: Surface, orientation: Orientation, wanted: Wanted) -> list[Attempt]:

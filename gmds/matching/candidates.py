@@ -81,7 +81,7 @@ def make_candidate(
 ) -> MapCandidate:
     """A proposal prolonged to all vertices: aligned, `count` samples placed by `solve`, extended, and registered.
 
-    With landmarks, or annealed, it is registered as it is, too, unembedded, and that is taken where it is `cheaper`.
+    With landmarks, or `improved`, it is registered as it is, too, unembedded, and that is taken where it is `cheaper`.
 
     Generalised multidimensional scaling compares diffusion distances (3.1) in the metric of the target in which the
     map keeps area; or the distances given, in their metrics, and then that embedding is the answer as it stands.
@@ -106,10 +106,10 @@ def may_lose_extremities(pair: SurfacePair, proposal: Proposal) -> bool:
     """Whether a foot or an ear that the proposal has right may be lost to eigenfunctions, and not come back.
 
     Registration brings it back unless landmarks hold what is around it, or it is a handful of vertices. Where parts
-    grew nothing is gained without landmarks: a map that denies it takes less energy. What was annealed knows more than
-    eigenfunctions do.
+    grew nothing is gained without landmarks: a map that denies it takes less energy. What was annealed or recombined
+    knows more than eigenfunctions do.
     """
-    if pair.landmarks is not None or proposal.annealed:
+    if pair.landmarks is not None or proposal.improved:
         return True
     fewest = min(len(surface.regular.usable) for surface in (pair.source, pair.target))
     return fewest < FEWEST_DECIDED and keeps_sizes(pair.simplified[0], proposal.registered.y)

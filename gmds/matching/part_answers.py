@@ -23,7 +23,8 @@ from gmds.matching.pair import SurfacePair
 from gmds.matching.parts import PartCandidate, part_candidates
 from gmds.matching.proposals import Proposal
 from gmds.matching.rating import confidence_of, expected_share, status_of
-from gmds.matching.result import MARGIN_OF_THE_ONLY, distortion_of, margin_of, original_points
+from gmds.matching.result import MARGIN_OF_THE_ONLY, distortion_of, original_points
+from gmds.matching.rivals import Rivals
 from gmds.matching.steps import Report
 from gmds.mds.losses import Loss
 from gmds.provenance import versions
@@ -139,9 +140,9 @@ def part_answer(candidates: Sequence[PartCandidate], part: Part, meta: Mapping[s
     the source has a counterpart when it is in the region.
     """
     best = replace(candidates[0], candidate=laid(candidates[0].candidate))
-    margin = margin_of([one.rank for one in candidates], [one.images.positions for one in candidates])
-    forward = _rated(_forward(best, MatchStatus.UNRATED, meta), best, margin)
-    evidence = {**best.candidate.evidence.as_meta(), "margin": min(margin, MARGIN_OF_THE_ONLY)}
+    rivals = Rivals.of([one.rank for one in candidates], [one.images.positions for one in candidates])
+    forward = _rated(_forward(best, MatchStatus.UNRATED, meta), best, rivals)
+    evidence = {**best.candidate.evidence.as_meta(), "margin": min(rivals.margin, MARGIN_OF_THE_ONLY)}
     others = [
         Candidate(_points(one, part), one.candidate.evidence.stress, one.candidate.evidence.orientation)
         for one in candidates[1:]
@@ -157,12 +158,12 @@ def part_answer(candidates: Sequence[PartCandidate], part: Part, meta: Mapping[s
     return replace(answer, candidates=tuple(others), meta=described)
 
 
-def _rated(forward: Correspondence, best: PartCandidate, margin: float) -> Correspondence:
-    confidence = confidence_of(best.candidate, margin)
+def _rated(forward: Correspondence, best: PartCandidate, rivals: Rivals) -> Correspondence:
+    confidence = confidence_of(best.candidate, rivals)
     expected = expected_share(confidence, best.candidate.pair.full[0].areas, forward.valid)
     curvature = best.candidate.evidence.whole.curvature
     badly_kept = best.neg_log_likelihood > LEAST_LIKELY or curvature < LEAST_CURVATURE
-    return replace(forward, confidence=confidence, status=status_of(expected, margin, badly_kept=badly_kept))
+    return replace(forward, confidence=confidence, status=status_of(expected, rivals.margin, badly_kept=badly_kept))
 
 
 def _forward(one: PartCandidate, status: MatchStatus, meta: Mapping[str, Any]) -> Correspondence:

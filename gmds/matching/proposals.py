@@ -39,9 +39,9 @@ EMBEDDED = 3  # maps of a pair, at the most, whose samples are placed: each cost
 # Of log-likelihood from the best: no map that fell short by more was the answer on 15 development pairs, the farthest
 # by 0.05 (benchmarks/results/notes.md, "Speed of a match").
 SHORTFALL = 0.8
-# Negative log-likelihood below which the likeliest map in the metric of space is taken, and no other metric asked: that
-# was so for 62 of 216 pairs, all closed, and the worst of these maps had a mean error of 0.051 root areas
-# (benchmarks/results/notes.md, "Effort").
+# Negative log-likelihood below which the likeliest map in the metric of space is taken, and no other metric asked: of
+# 216 pairs it was right for all closed ones, with a mean error of 0.051 root areas at the most, and where parts grew or
+# another map is nearly as likely the other metrics find none that is better (benchmarks/results/notes.md, "Effort").
 DECISIVE = -10.5
 FEWEST_DECIDED = 2000  # vertices: with fewer the other metrics do find better maps ("Effort" there)
 
@@ -52,12 +52,12 @@ T = TypeVar("T")
 class Proposal:
     """A map of the simplified source, `registered` to the simplified target, and the target `back` to it.
 
-    `annealed`: whether it began with all eigenfunctions, positions and normals already.
+    `improved`: whether it began with all eigenfunctions, positions and normals already, or with parts of other maps.
     """
 
     registered: Registered
     back: Registered
-    annealed: bool = False
+    improved: bool = False
 
     @classmethod
     def of(cls, pair: SurfacePair, places: Floats) -> Proposal:
@@ -85,10 +85,14 @@ class Proposal:
 
 
 class Proposed(NamedTuple):
-    """The maps, and whether they were decided before the last round: by an `isometric` one."""
+    """The maps, and whether the likeliest, decided before the last round, is `isometric`: keeps the sizes of parts.
+
+    `settled`: the sources of all that were registered to the end, of the maps and of those not registered the way back.
+    """
 
     maps: list[Proposal]
     isometric: bool
+    settled: list[Registered]
 
 
 def proposals(
@@ -103,8 +107,7 @@ def proposals(
     which shows when the simplified source is deformed: a surface cannot be turned inside out for little. The third
     that needs the least deformation to begin with is registered to the end, and `MOST_RETURNED` of these the way back.
 
-    The views of a round are not asked for where nothing can be missing and of those before one map alone is likely,
-    `DECISIVE`, and changes the size of no part.
+    The views of a round are not asked for where nothing can be missing and a map of those before is `DECISIVE`.
     """
     source, target = pair.simplified
     begin, settle = SIMPLIFIED.with_stages(TO_IMAGES), SIMPLIFIED.with_stages(COARSE)
@@ -115,20 +118,18 @@ def proposals(
         parts = [_part(progress, number, len(rounds), *shares) for shares in ((0.6, 0.75), (0.75, 0.9), (0.9, 1.0))]
         places = [target.mesh.vertices[images] for images in rough_maps(pair, views(), starts)]
         begun += side_by_side(lambda place: register(source, target, place, begin), places, parts[0])
-        cheap = _without_repeats(_cheapest(begun)[: max(LEAST_SETTLED, len(begun) // 3)], source)
-        maps = done.of(_cheapest(there.of(cheap, parts[1]))[:MOST_RETURNED], parts[2])
-        if number + 1 < len(rounds) and _decisive(pair, maps):
-            return Proposed(maps, isometric=True)
-    return Proposed(maps, isometric=False)
+        cheap = _without_repeats(cheapest(begun)[: max(LEAST_SETTLED, len(begun) // 3)], source)
+        ended = cheapest(there.of(cheap, parts[1]))
+        maps = done.of(ended[:MOST_RETURNED], parts[2])
+        best = min(maps, key=lambda one: one.neg_log_likelihood)
+        if number + 1 < len(rounds) and _decisive(pair, best):
+            return Proposed(maps, keeps_sizes(source, best.registered.y), ended)
+    return Proposed(maps, isometric=False, settled=ended)
 
 
-def _decisive(pair: SurfacePair, maps: Sequence[Proposal]) -> bool:
+def _decisive(pair: SurfacePair, best: Proposal) -> bool:
     fewest = min(len(surface.regular.usable) for surface in (pair.source, pair.target))
-    if not pair.closed or fewest < FEWEST_DECIDED:
-        return False
-    best, *rivals = likely_maps(maps, pair.simplified[0].areas)
-    alone = not rivals and best.neg_log_likelihood < DECISIVE
-    return alone and keeps_sizes(pair.simplified[0], best.registered.y)
+    return pair.closed and fewest >= FEWEST_DECIDED and best.neg_log_likelihood < DECISIVE
 
 
 class _Kept(Generic[T]):
@@ -152,7 +153,7 @@ def _part(
     return lambda share: None if progress is None else progress((number + start + (end - start) * share) / count)
 
 
-def _cheapest(deformations: Sequence[Registered]) -> list[Registered]:
+def cheapest(deformations: Sequence[Registered]) -> list[Registered]:
     """Those that need the least deformation first."""
     return sorted(deformations, key=lambda one: one.residuals.neg_log_likelihood)
 

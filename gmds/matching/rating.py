@@ -4,7 +4,8 @@ r"""How confident one can be of a map: a logistic model of its signs, fitted to 
 
 with the signs :math:`x_k` of `gmds.matching.signs`, held within the range [l, u] that they had where it was fitted:
 `python -m benchmarks.trust.fit` does that, and writes `gmds.matching.weights`. Maps of distances that were given, which
-nothing registers, have a model of their own (`python -m benchmarks.trust.plain`, `gmds.matching.plain_weights`).
+nothing registers, have a model of their own (`python -m benchmarks.trust.plain`, `gmds.matching.plain_weights`). Where
+maps that are nearly as likely lead elsewhere, p is multiplied by the probability of `gmds.matching.rivals`.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from geodesics.arrays import Bools, Floats
 from gmds.maps.point_map import MatchStatus
 from gmds.matching.candidates import MapCandidate
 from gmds.matching.plain_weights import PLAIN_CONSTANT, PLAIN_WEIGHTS
+from gmds.matching.rivals import Rivals
 from gmds.matching.signs import signs_of
 from gmds.matching.weights import CONSTANT, WEIGHTS
 
@@ -27,17 +29,17 @@ SURE = 0.75  # set by hand
 AMBIGUOUS_MARGIN = 0.7
 
 
-def confidence_of(candidate: MapCandidate, margin: float) -> Floats:
-    """The confidence (n,) of a candidate at the vertices of the source.
+def confidence_of(candidate: MapCandidate, rivals: Rivals) -> Floats:
+    """The confidence (n,) of a candidate at the vertices of the source, less where `rivals` dispute it.
 
     It is 0 at vertices of no area, and where a sign is no number, so that nothing can be said.
     """
-    signs = signs_of(candidate, margin)
+    signs = signs_of(candidate, rivals)
     constant, weights = (PLAIN_CONSTANT, PLAIN_WEIGHTS) if candidate.is_plain else (CONSTANT, WEIGHTS)
     odds = np.full(candidate.pair.source.mesh.n_vertices, constant)
     for name, (weight, low, high) in weights.items():
         odds += weight * np.clip(signs[name], low, high)
-    result = 1 / (1 + np.exp(-odds))
+    result = rivals.undisputed / (1 + np.exp(-odds))
     result[(candidate.pair.full[0].areas <= 0) | np.isnan(result)] = 0.0
     return np.asarray(result, dtype=np.float64)
 

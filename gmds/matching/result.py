@@ -15,6 +15,7 @@ from gmds.maps.distortion import edge_distortion
 from gmds.maps.point_map import Candidate
 from gmds.matching.candidates import MapCandidate
 from gmds.matching.rating import AMBIGUOUS_MARGIN, confidence_of, expected_share, status_of
+from gmds.matching.rivals import Rivals
 from gmds.provenance import versions
 from gmds.surface.measured import on_original
 
@@ -24,7 +25,6 @@ MOST_STRESS = 0.2
 LEAST_CURVATURE = 0.2
 MOST_ENERGY = 1.0
 MARGIN_OF_THE_ONLY = 99.0  # what stands for infinity in a file, where there is no other map
-ANOTHER_MAP = 0.1  # mean distance in root areas between the images of two maps that are two answers; set by hand
 # What is off the target (by more than so many spacings of its vertices) and nearer to the boundary than so many times
 # that distance lies beyond the boundary; a region is as wide as heat spreads in this time, in units of the area. Set by
 # hand; what they mark with a limb cut off is in benchmarks/results/notes.md, "Trust".
@@ -39,14 +39,15 @@ DISTORTION_TIME = 1e-2
 def correspondence_of(placed: Sequence[MapCandidate], meta: Mapping[str, Any]) -> Correspondence:
     """The best map as a `Correspondence` between the original meshes, the others as its candidates."""
     best = placed[0]
-    source, target, margin = best.pair.source, best.pair.target, _margin(placed)
+    source, target = best.pair.source, best.pair.target
+    rivals = Rivals.of([one.neg_log_likelihood for one in placed], [one.points.positions for one in placed])
     evidence = {
         **best.evidence.as_meta(),
-        "margin": min(margin, MARGIN_OF_THE_ONLY),
+        "margin": min(rivals.margin, MARGIN_OF_THE_ONLY),
         "laid_in_space": best.laid is not None,
     }
     candidates = tuple(Candidate(original_points(e), e.evidence.stress, e.evidence.orientation) for e in placed[1:])
-    confidence, valid = confidence_of(best, margin), _valid(best)
+    confidence, valid = confidence_of(best, rivals), _valid(best)
     expected = expected_share(confidence, best.pair.full[0].areas, valid)
     return Correspondence(
         source=source.original,
@@ -54,7 +55,7 @@ def correspondence_of(placed: Sequence[MapCandidate], meta: Mapping[str, Any]) -
         points=original_points(best),
         valid=valid,
         distortion=distortion_of(best),
-        status=status_of(expected, margin, badly_kept=_badly_kept(best)),
+        status=status_of(expected, rivals.margin, badly_kept=_badly_kept(best)),
         candidates=candidates,
         meta={**meta, "evidence": evidence, "solver": best.solution.status.name, "versions": versions()},
         confidence=confidence,
@@ -120,20 +121,3 @@ def _badly_kept(best: MapCandidate) -> bool:
         return False
     whole = best.evidence.whole
     return best.evidence.stress > MOST_STRESS or whole.curvature < LEAST_CURVATURE or whole.energy > MOST_ENERGY
-
-
-def margin_of(likelihoods: Sequence[float], images: Sequence[Floats]) -> float:
-    """How much likelier the first map is than any quite different one: the difference of log-likelihood.
-
-    `likelihoods` are negative logarithms; `images` are where each map sends the vertices, (n, 3), in root areas.
-    """
-    others = [
-        value
-        for value, positions in zip(likelihoods[1:], images[1:], strict=True)
-        if np.linalg.norm(positions - images[0], axis=1).mean() > ANOTHER_MAP
-    ]
-    return min(others, default=np.inf) - likelihoods[0]
-
-
-def _margin(placed: Sequence[MapCandidate]) -> float:
-    return margin_of([one.neg_log_likelihood for one in placed], [one.points.positions for one in placed])

@@ -24,6 +24,7 @@ import numpy as np
 from geodesics.arrays import Floats, Integers
 from geodesics.euclidean import euclidean_distances
 from gmds.matching.candidates import MapCandidate
+from gmds.matching.rivals import Rivals
 
 Signs: TypeAlias = dict[str, Floats]
 
@@ -35,10 +36,10 @@ FLAT = 1e-4  # variance of squashed curvature that is noise: a bound, so that no
 SURE = 8.0  # margins above are as good as this: a bound
 
 
-def signs_of(candidate: MapCandidate, margin: float) -> Signs:
+def signs_of(candidate: MapCandidate, rivals: Rivals) -> Signs:
     """The signs of a map, each (n,), for every vertex of the source in `candidate.pair`.
 
-    `margin` is the difference of log-likelihood to any other map.
+    Of the `rivals` the margin is one.
     """
     source, target = candidate.pair.full
     image, y = candidate.points.positions, candidate.deformation.y
@@ -65,7 +66,7 @@ def signs_of(candidate: MapCandidate, margin: float) -> Signs:
         "laid": near(areas * np.linalg.norm(candidate.answer.positions - image, axis=1)),
     }
     n = source.mesh.n_vertices
-    return local | {name: np.full(n, value) for name, value in _of_the_whole(candidate, margin).items()}
+    return local | {name: np.full(n, value) for name, value in _of_the_whole(candidate, rivals.margin).items()}
 
 
 def _of_the_whole(candidate: MapCandidate, margin: float) -> dict[str, float]:

@@ -71,8 +71,8 @@ def test_the_likeliest_are_annealed_and_marked() -> None:
     maps = [Proposal.of(pair, truth + rough * rng.normal(size=truth.shape)) for rough in np.linspace(0.3, 0.8, 8)]
     better = annealed(pair, maps)
     assert len(better) == MOST_ANNEALED
-    assert all(one.annealed for one in better)
-    assert not any(one.annealed for one in maps)
+    assert all(one.improved for one in better)
+    assert not any(one.improved for one in maps)
     likeliest, before = (min(some, key=lambda one: one.neg_log_likelihood) for some in (better, maps))
     assert likeliest.neg_log_likelihood < before.neg_log_likelihood - LEAST_GAIN
     assert miss(likeliest.registered.points.positions) < miss(before.registered.points.positions)
