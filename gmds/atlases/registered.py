@@ -163,6 +163,8 @@ class Atlas:
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Atlas:
         """Read what `save` wrote. Raises `AtlasFileError` (E234), `OSError`."""
+        if Path(path).is_dir():
+            raise AtlasFileError(f"{path} is a folder; name the file atlas.npz in it")
         try:
             read = read_npz(Path(path))
             words = {key: tuple(str(one) for one in read[key]) for key in ("names", "status", "templates")}

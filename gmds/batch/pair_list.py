@@ -6,6 +6,7 @@ import csv
 from pathlib import Path
 
 from gmds.errors import BadPairList
+from gmds.files.folders import is_mesh_file
 from gmds.files.text import read_text
 
 LARGEST = 1 << 28  # bytes: a bound, millions of pairs
@@ -20,6 +21,8 @@ def read_list(path: Path) -> tuple[list[Path], list[tuple[Path, Path]] | None]:
     """
     if path.exists() and not path.is_file():
         raise BadPairList(f"{path} is neither a folder nor a file")
+    if is_mesh_file(path):
+        raise BadPairList(f"{path} is one mesh; name a folder of meshes, or a list of their files")
     try:
         lines = read_text(path, BadPairList, LARGEST).splitlines()
     except UnicodeDecodeError as error:

@@ -13,6 +13,7 @@ from gmds.cli.directions import upwards
 from gmds.cli.group import UNFINISHED
 from gmds.cli.landmark_options import landmarks_of
 from gmds.cli.output import emit, note, progress_bar
+from gmds.cli.paths import tell_inner_folders
 
 
 def landmark_collection(folder: Path, template: Path, landmarks: Path, output: Path, **options: Any) -> None:
@@ -29,6 +30,7 @@ def landmark_collection(folder: Path, template: Path, landmarks: Path, output: P
     if options["slide"] is not None and not curve_triples(marks.lists):
         raise click.UsageError(f"--slide is for points of curves, and {landmarks} holds no curve")
     asked = {"orientation": options["orientation"], "rng": options["seed"]}
+    tell_inner_folders(folder, output)
     quiet()
     output.mkdir(parents=True, exist_ok=True)
     with progress_bar("landmarks", remaining=True) as shown:

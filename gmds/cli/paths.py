@@ -9,6 +9,8 @@ from typing import Any
 
 import click
 
+from gmds.cli.output import note
+
 COMPANIONS = {".obj": (".mtl", ".png"), ".vert": (".tri",), ".tri": (".vert",)}  # endings of files of one mesh
 
 
@@ -27,6 +29,23 @@ class OutputFile(click.Path):
             self.fail(f"there is no folder {str(path.parent)!r} for {path.name!r}", param, ctx)
         if self.written and (why := _not_writable(path)):
             self.fail(f"{path.name!r} cannot be written to the folder {str(path.parent)!r}: {why}", param, ctx)
+        return path
+
+
+class OutputFolder(click.Path):
+    """A folder that can be written to, or be made."""
+
+    def __init__(self) -> None:
+        super().__init__(path_type=Path)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The path; a usage error that names it when it is a file, or in one, or nothing can be written there."""
+        path = Path(os.fsdecode(super().convert(value, param, ctx)))
+        there = next((one for one in (path, *path.absolute().parents) if one.exists()), Path())
+        if not there.is_dir():
+            self.fail(f"{str(path)!r} can be no folder: {str(there)!r} is a file", param, ctx)
+        if why := _not_writable(there / "any"):
+            self.fail(f"nothing can be written to the folder {str(there)!r}: {why}", param, ctx)
         return path
 
 
@@ -49,6 +68,15 @@ def refuse_same_folder(read: Path, output: Path, name: str) -> None:
     """A usage error when a folder of outputs is one that is read, in which `name` would be lost or taken for input."""
     if _identity(read) == _identity(output):
         raise click.UsageError(f"-o {str(output)!r} is where input is read from, beside {name}; name another folder")
+
+
+def tell_inner_folders(folder: Path, output: Path) -> None:
+    """A line on stderr for folders with meshes in a folder that is read: what is in them is not."""
+    from gmds.files.folders import inner_folders
+
+    inner = inner_folders(folder) if folder.is_dir() else []
+    if names := [path.name for path in inner if _identity(path) != _identity(output)]:
+        note(f"gmds: folders in {folder} are not read: {', '.join(names[:10])}{', ...' if len(names) > 10 else ''}")
 
 
 def refuse_collisions(ctx: click.Context) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import os
 import re
 from collections import Counter
 from collections.abc import Sequence
@@ -17,12 +18,27 @@ LONGEST_NAME = 100  # bytes of a name: two of them and a little more make the na
 
 def mesh_files(folder: Path) -> list[Path]:
     """The mesh files of a folder, in the order of their names; of a TOSCA pair the .vert. FormatError without any."""
-    if not folder.is_dir():
+    if not folder.exists():
         raise FileNotFoundError(errno.ENOENT, "there is no such folder", str(folder))
-    found = sorted(p for p in folder.iterdir() if p.is_file() and _unpacked(p).suffix.lower() in SUFFIXES)
+    if not folder.is_dir():
+        raise NotADirectoryError(errno.ENOTDIR, "it is a file, where a folder of meshes is expected", str(folder))
+    found = sorted(path for path in folder.iterdir() if is_mesh_file(path))
     if not found:
-        raise FormatError(f"{folder} has no mesh files ({', '.join(SUFFIXES)})")
+        inner = ", ".join(path.name for path in inner_folders(folder)[:5])
+        hint = f", but folders that have: {inner}; name one of these" if inner else ""
+        raise FormatError(f"{folder} has no mesh files ({', '.join(SUFFIXES)}){hint}")
     return found
+
+
+def inner_folders(folder: Path) -> list[Path]:
+    """The folders inside a folder in which there are meshes; `mesh_files` does not look into them."""
+    inside = sorted(path for path in folder.iterdir() if path.is_dir() and os.access(path, os.R_OK | os.X_OK))
+    return [path for path in inside if any(is_mesh_file(one) for one in path.iterdir())]
+
+
+def is_mesh_file(path: Path) -> bool:
+    """Whether there is a file with the ending of a mesh."""
+    return path.is_file() and _unpacked(path).suffix.lower() in SUFFIXES
 
 
 def shape_names(paths: Sequence[Path]) -> list[str]:

@@ -25,27 +25,28 @@ def even_points(mesh: Mesh, count: int) -> Integers:
 
 
 def paired_points(mesh: Mesh, partner: SurfacePoints, count: int) -> tuple[SurfacePoints, list[str]]:
-    """About `count` points evenly spread, each with its partner on the other side, and their names.
+    """Points evenly spread, each with its partner on the other side, and their names: `count`, or one more.
 
-    Points are called L1, R1, L2, R2, ... and M1, M2, ... on the midline; which side is L is a matter of chance.
-    `partner`: where each vertex is on the other side, as a reversing `self_symmetry` tells.
+    Each is as far as can be from all earlier ones and their partners. They are called L1, R1, L2, R2, ... and M1, M2,
+    ... on the midline; which side is L is a matter of chance. `partner`: where each vertex is on the other side, as a
+    reversing `self_symmetry` tells.
     """
-    order = even_points(mesh, min(count, len(np.unique(mesh.faces))))
-    place, other = mesh.vertices, partner.positions
-    spacing = float(np.sqrt(mesh.area / count))
-    chosen: list[int] = []
-    for vertex in order.tolist():
-        taken = [*place[chosen], *other[chosen]]
-        if not taken or np.linalg.norm(np.array(taken) - place[vertex], axis=1).min() > MIDLINE * spacing:
-            chosen.append(vertex)
-    middle = np.linalg.norm(place[chosen] - other[chosen], axis=1) <= MIDLINE * spacing
-    faces, weights, names = [], [], []
-    here = SurfacePoints.at_vertices(mesh, chosen)
-    for i, vertex in enumerate(chosen):
-        pair = [("M", here, i)] if middle[i] else [("L", here, i), ("R", partner, vertex)]
-        number = int(middle[: i + 1].sum()) if middle[i] else int((~middle[: i + 1]).sum())
-        for letter, points, row in pair:
-            faces.append(points.face[row])
-            weights.append(points.barycentric[row])
-            names.append(f"{letter}{number}")
+    used = np.unique(mesh.faces)
+    count = min(count, len(used))
+    distance = GeodesicDistance(embedded(mesh))
+    apart = np.linalg.norm(mesh.vertices - partner.positions, axis=1)
+    middle = apart <= MIDLINE * np.sqrt(mesh.area / count)
+    faces, weights, names = [], [], list[str]()
+    numbers = {True: 0, False: 0}
+    nearest = np.full(mesh.n_vertices, np.inf)
+    vertex = int(even_points(mesh, 1)[0])
+    while len(names) < count and nearest[vertex] > 0:
+        here, is_middle = SurfacePoints.at_vertices(mesh, [vertex]), bool(middle[vertex])
+        numbers[is_middle] += 1
+        for letter, points in [("M", here)] if is_middle else [("L", here), ("R", partner[[vertex]])]:
+            faces.append(points.face[0])
+            weights.append(points.barycentric[0])
+            names.append(f"{letter}{numbers[is_middle]}")
+            nearest = np.minimum(nearest, distance.field(points)[0])
+        vertex = int(used[nearest[used].argmax()])
     return SurfacePoints(mesh, np.array(faces), np.array(weights)), names

@@ -12,11 +12,12 @@ import numpy as np
 from geodesics import Mesh, read_mesh
 from geodesics.arrays import Bools, Floats
 from geodesics.errors import BadArgument
+from gmds.batch.collection import names
 from gmds.batch.pair_choice import with_template
 from gmds.batch.records import WITHOUT_MAP, Batch
 from gmds.batch.run import match_collection
 from gmds.correspondence import Correspondence
-from gmds.files.folders import mesh_files, shape_names
+from gmds.files.folders import mesh_files, plain_name
 from gmds.landmarks.checking import place_on
 from gmds.landmarks.files import Landmarks
 from gmds.landmarks.transfer import carry_landmarks
@@ -103,12 +104,13 @@ def landmark_folder(
     mesh = read_mesh(template)
     own = _of_template(template, mesh, marks)
     paths = mesh_files(folder)
-    known = dict(zip(shape_names(paths), paths, strict=True))
+    known = dict(zip(names(paths), paths, strict=True))
     others = {name: path for name, path in known.items() if path.resolve() != template.resolve()}
     if not others:
         raise BadArgument(f"{folder} holds no mesh beside the template")
-    name = next((name for name, path in known.items() if path.resolve() == template.resolve()), template.stem)
-    if name in others:  # a template of another folder, called as a specimen is
+    name = next((name for name, path in known.items() if path.resolve() == template.resolve()), "")
+    name = name or plain_name(template.stem)
+    while name in others:  # a template of another folder, called as a specimen is
         name = f"template_{name}"
     shapes = {name: template, **others}
     made = match_collection(shapes, output, pairs=with_template(name), client=client, progress=progress, **options)

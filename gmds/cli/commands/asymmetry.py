@@ -9,7 +9,7 @@ import click
 
 from gmds.cli.group import Command
 from gmds.cli.output import emit, json_option, note
-from gmds.cli.paths import refuse_same_folder
+from gmds.cli.paths import OutputFolder, refuse_same_folder
 
 if TYPE_CHECKING:
     from geodesics.arrays import Integers
@@ -20,7 +20,7 @@ PATH = click.Path(path_type=Path)
 
 @click.command(cls=Command, short_help="Measure left against right on the specimens of an atlas.")
 @click.argument("atlas_file", metavar="ATLAS", type=PATH)
-@click.option("-o", "--output", default="asymmetry", show_default=True, type=PATH, help="Folder.")
+@click.option("-o", "--output", default="asymmetry", show_default=True, type=OutputFolder(), help="Folder.")
 @click.option("--sides", type=PATH, help="A table that pairs left and right specimens; without it each has both.")
 @click.option("--individual", default="individual", show_default=True, help="Column that says which belong together.")
 @click.option("--side", default="side", show_default=True, help="Column that says which is which.")

@@ -9,17 +9,18 @@ import click
 
 from gmds.cli.group import UNFINISHED, Command
 from gmds.cli.output import emit, json_option, note, progress_bar
-from gmds.cli.paths import refuse_same_folder
+from gmds.cli.paths import OutputFolder, refuse_same_folder, tell_inner_folders
 
 if TYPE_CHECKING:
     from gmds.atlases.registered import Atlas
 
 PATH = click.Path(path_type=Path)
+UNITS = 8.0  # a little below 10, by which neighbouring units of length differ
 
 
 @click.command(cls=Command, short_help="Bring a folder of meshes to one triangulation.")
 @click.argument("folder", type=PATH)
-@click.option("-o", "--output", default="atlas", show_default=True, type=PATH, help="Folder.")
+@click.option("-o", "--output", default="atlas", show_default=True, type=OutputFolder(), help="Folder.")
 @click.option("--template", metavar="NAME", help="The first template.  [default: the specimen most like all others]")
 @click.option(
     "--templates",
@@ -79,6 +80,7 @@ def command(folder: Path, output: Path, as_json: bool, **options: Any) -> None:
     from gmds.batch import local_client, quiet, remote_client
 
     refuse_same_folder(folder, output, "the meshes")
+    tell_inner_folders(folder, output)
     address, workers = options.pop("scheduler"), options.pop("workers")
     if address is not None and workers is not None:
         raise click.UsageError("--workers is for this machine; with --scheduler its workers are used")
@@ -90,9 +92,19 @@ def command(folder: Path, output: Path, as_json: bool, **options: Any) -> None:
     write_atlas(made, output)
     for name, why in made.failures.items():
         note(f"gmds: left out {name}: {why.code}: {why.reason}")
+    for name, times in _other_units(made).items():
+        note(f"gmds: {name} is {times:.3g} times as large as the median: in other units? Shape and growth do not mind")
     emit(_told(made, output), as_json)
     if made.failures:
         raise click.exceptions.Exit(UNFINISHED)
+
+
+def _other_units(made: Atlas) -> dict[str, float]:
+    """Specimens whose size differs from the median as sizes of one kind seldom do, and units always: by how much."""
+    import numpy as np
+
+    sizes = made.superposition.sizes / np.median(made.superposition.sizes)
+    return {n: float(x) for n, x in zip(made.names, sizes, strict=True) if abs(np.log10(x)) >= np.log10(UNITS)}
 
 
 def _told(made: Atlas, output: Path) -> dict[str, Any]:

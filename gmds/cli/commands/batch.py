@@ -10,6 +10,7 @@ import click
 from gmds.cli.group import UNFINISHED
 from gmds.cli.matching_options import matching_arguments, matching_options
 from gmds.cli.output import emit, json_option, note, progress_bar
+from gmds.cli.paths import OutputFolder, tell_inner_folders
 from gmds.cli.settings import ConfiguredCommand
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ SHARES = ("within_005", "within_010")
 
 @click.command("batch", cls=ConfiguredCommand, short_help="Match many pairs, side by side.")
 @click.argument("list_or_dir", type=PATH)
-@click.option("-o", "--output", default="batch", show_default=True, type=PATH, help="Folder.")
+@click.option("-o", "--output", default="batch", show_default=True, type=OutputFolder(), help="Folder.")
 @click.option(
     "--pairs", metavar="all|consecutive|template=NAME", help="Which shapes of a folder to match.  [default: all]"
 )
@@ -64,6 +65,7 @@ def command(list_or_dir: Path, output: Path, as_json: bool, **options: Any) -> N
     address = options["scheduler"]
     if address is not None and options["workers"] is not None:
         raise click.UsageError("--workers is for this machine; with --scheduler its workers are used")
+    tell_inner_folders(list_or_dir, output)
     choice = _choice(options["pairs"], options["both_ways"])
     quiet()
     client = remote_client(address) if address else local_client(options["workers"])

@@ -10,7 +10,7 @@ import click
 
 from gmds.cli.group import Command
 from gmds.cli.output import emit, json_option, seed_option
-from gmds.cli.paths import refuse_same_folder
+from gmds.cli.paths import OutputFolder, refuse_same_folder
 
 PATH = click.Path(path_type=Path)
 
@@ -19,7 +19,7 @@ PATH = click.Path(path_type=Path)
 @click.argument("atlas_file", metavar="ATLAS", type=PATH)
 @click.option("--table", type=PATH, help="A .csv with a row a specimen; its titles name groups and covariates.")
 @click.option("--column", default="group", show_default=True, help="Which column; `size` is the centroid size.")
-@click.option("-o", "--output", default="groups", show_default=True, type=PATH, help="Folder.")
+@click.option("-o", "--output", default="groups", show_default=True, type=OutputFolder(), help="Folder.")
 @click.option("--permutations", default=999, show_default=True, type=click.IntRange(min=1), help="Of the test.")
 @seed_option
 @json_option

@@ -11,7 +11,7 @@ from gmds.cli.group import Command
 from gmds.cli.landmark_options import check_on, landmarks_of, space_option, specimen_option
 from gmds.cli.matching_options import orientation_option
 from gmds.cli.output import emit, json_option, known, note, progress_bar, seed_option
-from gmds.cli.paths import OutputFile
+from gmds.cli.paths import OutputFile, OutputFolder
 from gmds.cli.view_options import up_option
 
 if TYPE_CHECKING:
@@ -29,7 +29,8 @@ class FileOrFolder(OutputFile):
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """The path; a file is checked as any other."""
         path = Path(value)
-        return path if path.is_dir() or not path.suffix else super().convert(value, param, ctx)
+        is_folder = path.is_dir() or not path.suffix
+        return OutputFolder().convert(value, param, ctx) if is_folder else super().convert(value, param, ctx)
 
 
 @click.command(cls=Command, short_help="Carry landmarks from one mesh to another.")

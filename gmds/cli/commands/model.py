@@ -9,7 +9,7 @@ import click
 
 from gmds.cli.group import Command
 from gmds.cli.output import emit, json_option
-from gmds.cli.paths import refuse_same_folder
+from gmds.cli.paths import OutputFolder, refuse_same_folder
 
 if TYPE_CHECKING:
     from gmds.morphometrics.shape_model import ShapeModel
@@ -19,7 +19,7 @@ PATH = click.Path(path_type=Path)
 
 @click.command(cls=Command, short_help="Find what varies in an atlas: a shape model.")
 @click.argument("atlas_file", metavar="ATLAS", type=PATH)
-@click.option("-o", "--output", default="model", show_default=True, type=PATH, help="Folder.")
+@click.option("-o", "--output", default="model", show_default=True, type=OutputFolder(), help="Folder.")
 @click.option("--components", type=click.IntRange(min=1), help="How many are kept.  [default: all]")
 @click.option("--keep-size", is_flag=True, help="Leave specimens as large as they are.")
 @click.option("--shown", default=3, show_default=True, type=click.IntRange(min=1), help="Components that are drawn.")

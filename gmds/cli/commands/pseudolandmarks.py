@@ -42,7 +42,8 @@ def command(
     .tps       a block a specimen; geomorph: readland.tps(f, specID = "ID")
 
     Each point is as far from all others as can be. With --symmetric the mean shape is matched with its mirror image,
-    and points come in pairs L1, R1, ..., and M1, M2, ... on the midline. What a specimen lacks is NA.
+    and points come in pairs L1, R1, ..., and M1, M2, ... on the midline (one more than --count where the last is a
+    pair). What a specimen lacks is NA.
 
     With --slide they are semilandmarks of the surface: on each specimen they slide over it until the bending energy, or
     the Procrustes distance, to the mean is least, from where the atlas has them.

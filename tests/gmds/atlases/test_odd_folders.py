@@ -1,8 +1,10 @@
-"""Folders that are not what one hopes for: two meshes, twins, other units; every command says what is the matter."""
+"""Folders that are not what one hopes for: two meshes, twins, other units, folders inside, names that no file can have
+as part of its name, nowhere to write; every command says what is the matter."""
 
 from __future__ import annotations
 
 import contextlib
+import errno
 import json
 from collections.abc import Iterator
 from pathlib import Path
@@ -86,6 +88,7 @@ def test_specimens_in_other_units_and_places_are_the_shapes_they_are(client: Any
     (tmp_path / "meshes" / "broken.obj").write_text("v 0 0\nf 1 2 3\n")
     done = run(client, "atlas", tmp_path / "meshes", "-o", tmp_path / "atlas", "--json")
     assert done.exit_code == 3 and "left out broken: E2" in done.stderr
+    assert "metres is" in done.stderr and "in other units?" in done.stderr
     made = Atlas.load(tmp_path / "atlas" / "atlas.npz")
     sizes = dict(zip(made.names, made.superposition.sizes, strict=True))
     assert 900 < sizes["millimetres"] / sizes["metres"] < 1200
@@ -94,3 +97,54 @@ def test_specimens_in_other_units_and_places_are_the_shapes_they_are(client: Any
     assert model.exit_code == 0 and json.loads(model.stdout)["components"] == 1
     few = run(client, "groups", tmp_path / "atlas" / "atlas.npz", "--column", "size", "-o", tmp_path / "groups")
     assert few.exit_code == 1 and "2 shapes are too few" in few.stderr
+
+
+def test_specimens_and_templates_of_any_name(client: Any, tmp_path: Path) -> None:
+    meshes = tmp_path / "süße Hunde"
+    meshes.mkdir()
+    for name in ("Käfer  1.ply", "a b.ply", "a_b.ply"):
+        write_mesh(quadruped(n_vertices=N), meshes / name)
+    write_mesh(quadruped(n_vertices=N), tmp_path / "a b.ply")
+    (tmp_path / "marks.csv").write_text("name,vertex\nnose,5\ntail,40\near,100\n")
+    where = ("--template", tmp_path / "a b.ply", "--landmarks", tmp_path / "marks.csv", "-o", tmp_path / "aus gabe")
+    done = run(client, "landmarks", meshes, *where, "--json")
+    assert done.exit_code == 0 and json.loads(done.stdout)["specimens"] == 3, done.output
+    names = {line.split(",")[0] for line in (tmp_path / "aus gabe" / "landmarks.csv").read_text().splitlines()[1:]}
+    assert len(names) == 4 and "Käfer_1" in names
+
+
+def test_folders_inside_are_told(client: Any, tmp_path: Path) -> None:
+    inner = tmp_path / "meshes" / "left"
+    inner.mkdir(parents=True)
+    write_mesh(quadruped(n_vertices=N), inner / "one.ply")
+    out = tmp_path / "atlas"
+    none = run(client, "atlas", tmp_path / "meshes", "-o", out)
+    assert none.exit_code == 1 and "E200" in none.stderr and "folders that have: left" in none.stderr
+    write_mesh(quadruped(n_vertices=N), tmp_path / "meshes" / "other.ply")
+    one = run(client, "atlas", tmp_path / "meshes", "-o", out)
+    assert one.exit_code == 1 and "are not read: left" in one.stderr and "E507" in one.stderr
+    mesh = run(client, "atlas", inner / "one.ply", "-o", out)
+    assert mesh.exit_code == 1 and "one.ply is one mesh; name a folder" in mesh.stderr
+
+
+@pytest.mark.parametrize("command", ["atlas", "model", "groups", "asymmetry", "batch"])
+def test_where_nothing_can_be_written_is_found_out_first(
+    client: Any, twins: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: str
+) -> None:
+    given = twins / ("meshes" if command in ("atlas", "batch") else "atlas/atlas.npz")
+    (tmp_path / "file").touch()
+    for place in (tmp_path / "file", tmp_path / "file" / "inside"):
+        refused = run(client, command, given, "-o", place)
+        assert refused.exit_code == 2 and "is a file" in refused.stderr, refused.output
+
+    def read_only(*_: Any, **__: Any) -> None:
+        raise OSError(errno.EROFS, "Read-only file system", "/somewhere")
+
+    monkeypatch.setattr("tempfile.TemporaryFile", read_only)
+    refused = run(client, command, given, "-o", tmp_path / "new" / "out")
+    assert refused.exit_code == 2 and "Read-only file system" in refused.stderr and not (tmp_path / "new").exists()
+
+
+def test_the_folder_of_an_atlas_is_not_its_file(client: Any, twins: Path, tmp_path: Path) -> None:
+    refused = run(client, "model", twins / "atlas", "-o", tmp_path / "model")
+    assert refused.exit_code == 1 and "E234" in refused.stderr and "atlas.npz" in refused.stderr

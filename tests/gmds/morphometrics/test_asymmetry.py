@@ -75,5 +75,7 @@ def test_pseudolandmarks_are_evenly_spread_and_come_in_pairs() -> None:
     pairs = [name for name in names if name[0] == "L"]
     assert len(pairs) > 8 and any(name[0] == "M" for name in names)
     assert all(np.abs(at[name] * [-1, 1, 1] - at["R" + name[1:]]).max() < 1e-6 for name in pairs)
+    for count in (4, 9, 40):
+        assert len(paired_points(MESH, PARTNER, count)[1]) in (count, count + 1)
     with pytest.raises(BadArgument, match="from 1 to"):
         even_points(MESH, 0)
