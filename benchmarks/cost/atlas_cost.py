@@ -156,7 +156,8 @@ def main() -> None:
     meshes = folder / "meshes"
     write_animals(meshes, counts[-1], given.vertices)
     shape = functools.partial(shape_seconds, meshes, folder / "shape")
-    rows = [measured(meshes, count, folder / f"atlas-{count}", shape) for count in counts]
+    largest_first = [measured(meshes, count, folder / f"atlas-{count}", shape) for count in reversed(counts)]
+    rows = largest_first[::-1]
     killed_and_resumed(meshes, counts[0], folder / "killed")
     before, after = digests(folder / f"atlas-{counts[0]}"), digests(folder / "killed")
     PAGE.write_text(page(rows, before == after, len(before), given.vertices), encoding="utf-8")
