@@ -14,8 +14,13 @@ from gmds._version import __version__
 
 def versions() -> dict[str, str]:
     """What computed the numbers."""
-    numeric = {name: version(name) for name in ("numpy", "scipy", "numba")}
-    return {"gmds": __version__, "python": platform.python_version(), **numeric}
+    return {"gmds": __version__, "python": platform.python_version(), **_numeric()}
+
+
+@functools.cache
+def _numeric() -> dict[str, str]:
+    """Of the packages that compute: looked up once, as that takes 10 ms."""
+    return {name: version(name) for name in ("numpy", "scipy", "numba")}
 
 
 def method_in_words(distance: Callable[..., Any] | None, loss: Any) -> dict[str, str | None]:
