@@ -24,7 +24,7 @@ from benchmarks.places import RESULTS
 from gmds.morphometrics.quality import generalisation, specificity
 from gmds.shapes import truth
 
-COMPONENTS = 4  # that are told; of eight specimens a model of seven has six
+COMPONENTS = 4  # of the models: what the goal asks of
 
 
 def main() -> None:
@@ -40,7 +40,7 @@ def main() -> None:
     sizes = np.sqrt([figures[name].area for name in made.names])
     errors = 100 * np.linalg.norm(made.positions - right, axis=2).mean(axis=1) / sizes
     others = [i for i, name in enumerate(made.names) if name != made.templates[0]]
-    models = [gmds.ShapeModel().fit(x) for x in (right, made.positions)]
+    models = [gmds.ShapeModel(COMPONENTS).fit(x) for x in (right, made.positions)]
     lines = []
     for what, measure in (("generalisation", generalisation), ("specificity", specificity)):
         one, other = (measure(model)[:COMPONENTS] for model in models)

@@ -33,7 +33,11 @@ function turned(points, [a, b]) {
 }
 
 function paint(canvas, p) {
-  const pen = canvas.getContext("2d"), scale = 1.02 * Math.min(canvas.width, canvas.height * 1.25), seen = [];
+  const pen = canvas.getContext("2d"), seen = [];
+  let scale = 1.02 * Math.min(canvas.width, canvas.height * 1.25);
+  for (let i = 0; i < p.length; i += 3) {  // what would leave the canvas is drawn smaller
+    scale = Math.min(scale, 0.49 * canvas.width / Math.abs(p[i]), 0.49 * canvas.height / Math.abs(p[i + 1]));
+  }
   const [r, g, b] = getComputedStyle(document.documentElement).getPropertyValue("--shape").match(/[0-9a-f]{2}/gi).map((two) => parseInt(two, 16));
   for (const face of data.faces) {
     const [i, j, k] = face.map((v) => 3 * v);
