@@ -1,9 +1,10 @@
 """Synchronisation in a common spectral basis beside agreement on the surfaces: is consistent ZoomOut worth its while?
 
-    GMDS_DATA=... python -m benchmarks.study.consistent_zoomout MAPS [--sets 'FAUST;horses, scaled'] [--ratio 0.8]
+    GMDS_DATA=... python -m benchmarks.study.consistent_zoomout MAPS [--sets 'FAUST;horses, scaled'] [--specimens 4]
 
-From the maps of all ordered pairs that `benchmarks.study.atlas` has left in MAPS. *direct* is each map as it is.
-*zoomout* takes it as functional maps from 20 to 100 eigenfunctions and back to points of triangles (Melzi et al. 2019).
+From the maps of all ordered pairs, those that `benchmarks.study.atlas` has left in MAPS among them. *direct* is each
+map as it is. *zoomout* takes it as functional maps from 20 to 100 eigenfunctions and back to points of triangles
+(Melzi et al. 2019).
 *synchronised* writes all maps as functional maps of 100 eigenfunctions at once, finds functions that are the same on
 all shapes (the latent basis of Wang, Huang and Guibas 2013: least squares under a fixed norm, an eigenproblem) and
 takes every map through them. *consistent* does so at every size from 20 to 100, each from the maps of the one before
@@ -32,13 +33,23 @@ SIZES = (20, 28, 40, 56, 76, 100)  # of the ladder: by about 1.4, as that of the
 Maps = dict[tuple[str, str], SurfacePoints]
 
 
+def some_of(known: Set, count: int | None) -> Set:
+    """The first specimens of a set, and the pairs of them."""
+    names = list(known.meshes)[:count]
+    pairs = [pair for pair in known.pairs if pair.source in names and pair.target in names]
+    return known._replace(meshes={name: known.meshes[name] for name in names}, pairs=pairs)
+
+
 def loaded(known: Set, folder: Path) -> Maps:
-    """The map of every ordered pair."""
+    """The map of every ordered pair; made where it is not there."""
+    folder.mkdir(parents=True, exist_ok=True)
     found = {}
     for a in known.meshes:
         for b in known.meshes:
             path = folder / f"{a}__{b}.npz"
-            if path.exists():
+            if a != b and not path.exists():
+                gmds.match(known.meshes[a], known.meshes[b], **known.options[0]).save(path)
+            if a != b:
                 found[a, b] = gmds.Correspondence.load(path, known.meshes[a], known.meshes[b]).points
     return found
 
@@ -87,10 +98,11 @@ def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("maps", type=Path)
     parser.add_argument("--sets", default="FAUST;horses, scaled")
+    parser.add_argument("--specimens", type=int, help="the first so many of a set alone")
     parser.add_argument("--ratio", type=float, default=0.8, help="common functions, as a share of eigenfunctions")
     given = parser.parse_args()
     for name in given.sets.split(";"):
-        known = SETS[name]()
+        known = some_of(SETS[name](), given.specimens)
         maps, names = loaded(known, given.maps / name / "maps" / "maps" / "pairs"), list(known.meshes)
         views = {one: View.of(eigenpairs(mesh, SIZES[-1])) for one, mesh in known.meshes.items()}
         found = {"direct": error(maps, known)}
