@@ -88,7 +88,8 @@ def anatomy(start: str, count: int = 4) -> Set:
         if i + 1 < len(known):  # the target is the source of the next pair, with other vertices
             there = read_mesh(root / entries[i + 1]["source"]).vertices[known[i + 1]["src"]]
             order = cKDTree(there).query(meshes[name].vertices[points[name]])[1]
-    some = np.random.default_rng(0).permutation(len(order))[:JUDGED]
+    whole = np.all([np.isin(points[name], meshes[name].faces) for name in points], axis=0)
+    some = np.random.default_rng(0).permutation(np.flatnonzero(whole))[:JUDGED]
     pairs = [Pair(a, b, points[a][some], points[b][some]) for a in points for b in points if a != b]
     return Set(meshes, pairs, {}, ({"orientation": "any"}, {"mirror": "auto"}) if sides else ({}, {}))
 
@@ -122,6 +123,6 @@ SETS: dict[str, Callable[[], Set]] = {
     "animals, built-in": animals,
     "faces": lambda: anatomy("scalismo"),
     "endocasts": lambda: anatomy("primate"),
-    "teeth": lambda: anatomy("pnas", 5),
+    "teeth": lambda: anatomy("pnas", 3),
     "faces, meshmonk": lambda: anatomy("meshmonk"),
 }
