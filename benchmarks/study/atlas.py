@@ -4,8 +4,8 @@
 
 Sets: six people in six poses of FAUST, judged on eight ordered pairs; copies of a horse of which parts are scaled, one
 in another pose, of `scaled/`, with two more poses of the horse itself; five built-in animals; four faces, four
-endocasts and three teeth of `anatomy/`, each once, judged on all ordered pairs. Errors x100 by the protocol of the
-field, of 50 points at most.
+endocasts and three teeth (not measured yet) of `anatomy/`, each once, judged on all ordered pairs. Errors x100 by the
+protocol of the field, of 50 points at most.
 *direct* is the map of each pair alone. *composed* goes through the atlas of one template without neighbours, which is
 composition; *atlas* is `gmds atlas` as it stands; *voted* is it with `--templates 6`, all specimens of a set
 being templates. The cycle is how far from home points of one specimen come through two others on registered meshes,
