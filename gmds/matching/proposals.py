@@ -13,7 +13,7 @@ from geodesics.arrays import Floats, Integers
 from geodesics.euclidean import euclidean_distances
 from geodesics.threads import side_by_side
 from gmds.initialization.shortlist import shortlist
-from gmds.matching.effort import keeps_sizes
+from gmds.matching.effort import MOST_GAP, keeps_sizes, largest_gap
 from gmds.matching.pair import SurfacePair
 from gmds.registration.deformable import DeformableMesh
 from gmds.registration.distinct import distinct
@@ -39,9 +39,10 @@ EMBEDDED = 3  # maps of a pair, at the most, whose samples are placed: each cost
 # Of log-likelihood from the best: no map that fell short by more was the answer on 15 development pairs, the farthest
 # by 0.05 (benchmarks/results/notes.md, "Speed of a match").
 SHORTFALL = 0.8
-# Negative log-likelihood below which the likeliest map in the metric of space is taken, and no other metric asked: of
-# 216 pairs it was right for all closed ones, with a mean error of 0.051 root areas at the most, and where parts grew or
-# another map is nearly as likely the other metrics find none that is better (benchmarks/results/notes.md, "Effort").
+# Negative log-likelihood below which the likeliest map in the metric of space is taken, and no other metric asked, if
+# it reaches everything: of 216 pairs it was right for all closed ones, with a mean error of 0.051 root areas at the
+# most, and where parts grew or another map is nearly as likely the other metrics find none that is better
+# (benchmarks/results/notes.md, "Effort").
 DECISIVE = -10.5
 FEWEST_DECIDED = 2000  # vertices: with fewer the other metrics do find better maps ("Effort" there)
 
@@ -128,8 +129,12 @@ def proposals(
 
 
 def _decisive(pair: SurfacePair, best: Proposal) -> bool:
+    """Whether a map is so likely that it is right: nothing can be missing, and no region of either is off the other."""
     fewest = min(len(surface.regular.usable) for surface in (pair.source, pair.target))
-    return pair.closed and fewest >= FEWEST_DECIDED and best.neg_log_likelihood < DECISIVE
+    if not pair.closed or fewest < FEWEST_DECIDED or best.neg_log_likelihood > DECISIVE:
+        return False
+    ways = zip(pair.simplified, (best.registered, best.back), strict=True)
+    return max(largest_gap(*way) for way in ways) < MOST_GAP
 
 
 class _Kept(Generic[T]):

@@ -14,23 +14,23 @@ class Weight(NamedTuple):
 
 
 # In the order of the signs.
-CONSTANT = 2.665
+CONSTANT = 4.415
 WEIGHTS = {
-    "curvature_far": Weight(-0.3746, -3.818, 0.02311),
-    "curvature_near": Weight(-0.2756, -3.982, 0.2489),
-    "spectral": Weight(-0.2596, -4.162, -0.04737),
-    "stress": Weight(-0.4156, -5.358, -0.8649),
-    "normals": Weight(-0.407, -9.21, -2.028),
-    "folds": Weight(0.1911, -9.21, -0.4306),
-    "uneven_growth": Weight(-0.6799, 0.000363, 0.6489),
-    "gap": Weight(0.2591, -7.682, -3.64),
-    "strain": Weight(-0.6545, -2.67, 0.1294),
-    "laid": Weight(-22.6, 0, 0.04469),
-    "folded": Weight(2.705, 0.0004499, 0.2092),
-    "rival": Weight(-1.898, 0.0003355, 0.6241),
-    "whole_energy": Weight(-0.4191, -2.145, -0.1774),
-    "whole_curvature": Weight(-0.8466, -4.396, -0.3074),
-    "whole_curvature_back": Weight(-0.3976, -3.628, -0.2885),
-    "simplified_curvature": Weight(0.4435, -2.216, -0.2243),
-    "simplified_misfit": Weight(1.419, -4.54, -3.636),
+    "curvature_far": Weight(-0.4524, -3.85, 0.007881),
+    "curvature_near": Weight(-0.2004, -4.028, 0.2364),
+    "spectral": Weight(-0.2715, -4.149, -0.06074),
+    "stress": Weight(-0.3648, -5.355, -0.8987),
+    "normals": Weight(-0.3587, -9.21, -2.211),
+    "folds": Weight(0.1697, -9.21, -0.4454),
+    "uneven_growth": Weight(-1.359, 0.0003952, 0.6545),
+    "gap": Weight(0.322, -7.712, -3.717),
+    "strain": Weight(-0.7544, -2.665, 0.09728),
+    "laid": Weight(-25.62, 0, 0.04293),
+    "folded": Weight(1.736, 0.0004691, 0.2092),
+    "rival": Weight(-1.654, 0.0003355, 0.5891),
+    "whole_energy": Weight(-0.5647, -2.207, -0.1774),
+    "whole_curvature": Weight(-0.8256, -4.396, -0.3634),
+    "whole_curvature_back": Weight(-0.4037, -3.628, -0.3476),
+    "simplified_curvature": Weight(0.3737, -2.216, -0.1673),
+    "simplified_misfit": Weight(1.699, -4.54, -3.636),
 }
