@@ -108,9 +108,12 @@ class Attempt:
 
 
 def improved(pair: SurfacePair, found: Proposed) -> list[Proposal]:
-    """The maps that were found, and what annealing makes of them, and what can be put together of all."""
+    """The maps that were found, and what annealing makes of them, and what can be put together of all.
+
+    With landmarks nothing is put together: they count in the likelihood, and a wrong one would have a region its way.
+    """
     maps = [*found.maps, *annealed(pair, found.maps)]
-    return [*maps, *recombined(pair, maps, found.settled)]
+    return maps if pair.landmarks is not None else [*maps, *recombined(pair, maps, found.settled)]
 
 
 def attempted(source: Surface, target: Surface, orientation: Orientation, wanted: Wanted) -> list[Attempt]:
