@@ -23,9 +23,9 @@ from gmds.registration.deformable import DeformableMesh
 from gmds.registration.register import Registered, register, settled
 from gmds.registration.settings import COARSE, SIMPLIFIED, TO_IMAGES
 
-# Root areas between where two maps lead, smoothed over the surface in this heat time, from which they differ there, and
-# shares of the area that a region has. How many rounds there are, and how many maps of each are registered to the end,
-# and the way back. Others did no better on development pairs (benchmarks/results/notes.md, "Recombination").
+# Root areas between where two maps lead, smoothed over the surface in this heat time, from which they differ there:
+# 0.07 did no better on development pairs (benchmarks/results/notes.md, "Recombination"). Shares of the area that a
+# region has, rounds, and how many maps of each are registered to the end, and the way back: set by hand.
 APART = 0.1
 SMOOTHING_TIME = 2e-3
 SHARES = (0.01, 0.5)
@@ -37,15 +37,15 @@ HALF = 0.5  # of a region comes to where another was, if they are exchanged: a b
 SAME = 0.02  # root areas, root mean square, below which two maps are put together alike: a bound
 
 
-def recombined(pair: SurfacePair, maps: Sequence[Proposal], settled_only: Sequence[Registered] = ()) -> list[Proposal]:
+def recombined(pair: SurfacePair, maps: Sequence[Proposal], more: Sequence[Registered] = ()) -> list[Proposal]:
     """What the likeliest of some maps became, step by step, with regions of the others; none if nothing is likelier.
 
-    Regions come from maps that were not registered the way back as well, `settled_only`.
+    Regions come from `more` as well: sources that need not have been registered the way back.
     """
     source, target = pair.simplified
     begin, settle = SIMPLIFIED.with_stages(TO_IMAGES), SIMPLIFIED.with_stages(COARSE)
     best, *rest = sorted(maps, key=_unlikeliness)
-    others = [*(one.registered for one in rest), *settled_only]
+    others = [*(one.registered for one in rest), *more]
     found: list[Proposal] = []
     tried: list[Floats] = []
     for _ in range(MOST_ROUNDS):
@@ -69,16 +69,15 @@ def regions(source: DeformableMesh, one: Floats, other: Floats) -> list[Bools]:
     left, right = ends[apart[ends].all(axis=1)].T
     labels = components(left, right, len(apart))
     masks = [apart & (labels == label) for label in np.unique(labels[apart])]
-    masks = [*masks, *exchanged(masks, one, other)]
+    masks = masks if len(masks) < 2 else [*masks, *exchanged(masks, one, other)]
     return [mask for mask in masks if SHARES[0] < source.areas[mask].sum() < SHARES[1]]
 
 
 def exchanged(masks: Sequence[Bools], one: Floats, other: Floats) -> list[Bools]:
     """Regions (n,) joined that come to where each other was: two legs that two maps have the other way round."""
     came_from = cKDTree(one).query(other)[1]
-    goes = [
-        (i, j) for i, mask in enumerate(masks) for j, there in enumerate(masks) if there[came_from[mask]].mean() > 0.5
-    ]
+    numbered = list(enumerate(masks))
+    goes = [(i, j) for i, mask in numbered for j, there in numbered if there[came_from[mask]].mean() > HALF]
     left, right = np.reshape(goes, (-1, 2)).astype(np.int64).T
     labels = components(left, right, len(masks))
     joined = [np.flatnonzero(labels == label).tolist() for label in np.unique(labels)]
