@@ -16,7 +16,7 @@ import gmds
 from geodesics import Mesh
 from gmds.cli.choices import chosen_distance
 from gmds.evaluation import protocol_subset
-from gmds.pictures.colours import position_colours
+from gmds.pictures.matching_colours import matching_colours
 
 WAYS: dict[str, Callable[[Mesh], Any] | None] = {
     "regular": chosen_distance("embedded", "diffusion"),
@@ -32,7 +32,7 @@ def main() -> None:
     ways = list(WAYS)[settings.small :]
     for name, mesh, _ in shapes(settings):
         target, truth = copies(mesh)["remeshed"]
-        colours = position_colours(target.vertices)
+        colours = matching_colours(target)
         some = protocol_subset(len(truth))
         images = [picture(target, colours, Z_UP, like=mesh)]
         numbers[name] = {}

@@ -14,7 +14,7 @@ from geodesics import Mesh, SurfacePoints, read_mesh
 from gmds.deformations.local_scaling import branch_log_scale, local_scaling
 from gmds.evaluation import protocol_subset
 from gmds.pictures.camera import broadside
-from gmds.pictures.colours import position_colours
+from gmds.pictures.matching_colours import matching_colours
 from gmds.pictures.software import render
 from gmds.shapes import quadruped
 
@@ -57,7 +57,7 @@ def cases(settings: argparse.Namespace) -> Iterator[Case]:
 
 def pictures(case: Case, found: gmds.Correspondence) -> list[Picture]:
     """Colours, colours pulled back by the symmetry, and the distance between a point and its image."""
-    view, colours = broadside(case.mesh, case.up, 55.0, 25.0), position_colours(case.mesh.vertices)
+    view, colours = broadside(case.mesh, case.up, 55.0, 25.0), matching_colours(case.mesh)
     moved = np.linalg.norm(found.points.positions - case.mesh.vertices, axis=1)
     images = [render(case.mesh, c, rotation=view, pixels=300) for c in (colours, found.points.interpolate(colours))]
     return [*images, picture(case.mesh, moved, case.up, (0.0, float(np.quantile(moved, 0.98))))]

@@ -35,6 +35,11 @@ def position_colours(vertices: ArrayLike) -> Floats:
     to yellow as well as in green to red. Colours change fastest in the middle, so that limbs on either side of it,
     fore and hind legs say, differ.
     """
+    return oklab_to_rgb(position_oklab(vertices))
+
+
+def position_oklab(vertices: ArrayLike) -> Floats:
+    """`position_colours` before they are sRGB: OKLab (n, 3) of positions (n, 3)."""
     v = np.asarray(vertices, dtype=np.float64)
     centred = v - v.mean(axis=0)
     extent = np.abs(centred).max()
@@ -43,7 +48,7 @@ def position_colours(vertices: ArrayLike) -> Floats:
     along = centred @ axes.T
     low, span = along.min(axis=0), np.ptp(along, axis=0)
     t, u, w = np.sin(np.pi * ((along - low) / np.where(span > 0, span, 1) - 0.5)).T
-    return _oklab_to_rgb(np.stack([LIGHT + REACH * t, GREEN_RED * (u - w), BLUE_YELLOW * (u + w)], axis=1))
+    return np.stack([LIGHT + REACH * t, GREEN_RED * (u - w), BLUE_YELLOW * (u + w)], axis=1)
 
 
 def shown_range(values: Floats) -> tuple[float, float]:
@@ -104,7 +109,7 @@ def diverging_colours(values: ArrayLike, reach: float) -> Floats:
     t = np.where(fine, v, 0) / (reach if reach > 0 else 1.0)
     size = np.abs(t).clip(0, 1)
     hue = np.where((t < 0)[:, None], BELOW, ABOVE)
-    colours = _oklab_to_rgb(np.concatenate([(0.97 - 0.47 * size)[:, None], size[:, None] * hue], axis=1))
+    colours = oklab_to_rgb(np.concatenate([(0.97 - 0.47 * size)[:, None], size[:, None] * hue], axis=1))
     colours[~fine] = MISSING
     return colours
 
@@ -114,7 +119,7 @@ def label_colours(labels: ArrayLike) -> Floats:
     numbers = np.asarray(labels).astype(np.int64)
     k = np.arange(max(int(numbers.max(initial=0)), 0) + 1)
     angle, light = 2 * np.pi * 0.381966 * k, 0.5 + 0.38 * ((k * 0.7548776662) % 1)
-    palette = _oklab_to_rgb(np.stack([light, 0.10 * np.cos(angle), 0.13 * np.sin(angle)], axis=1))
+    palette = oklab_to_rgb(np.stack([light, 0.10 * np.cos(angle), 0.13 * np.sin(angle)], axis=1))
     colours = palette[numbers.clip(0)]
     colours[numbers < 0] = MISSING
     return colours
@@ -126,7 +131,7 @@ def css(colours: ArrayLike) -> list[str]:
     return [f"#{number:06x}" for number in (levels @ [65536, 256, 1]).tolist()]
 
 
-def _oklab_to_rgb(lab: Floats) -> Floats:
+def oklab_to_rgb(lab: Floats) -> Floats:
     """sRGB in [0, 1] of OKLab colours (Ottosson 2020), clipped."""
     cone = lab @ np.array(
         [[1, 1, 1], [0.3963377774, -0.1055613458, -0.0894841775], [0.2158037573, -0.0638541728, -1.2914855480]]

@@ -12,9 +12,10 @@ from gmds.maps.overlap import covered_of
 from gmds.maps.point_map import PointMap
 from gmds.pictures.balls import with_balls
 from gmds.pictures.camera import Direction, alignment, broadside
-from gmds.pictures.colours import BARE, MISSING, few_known, position_colours
+from gmds.pictures.colours import BARE, MISSING, few_known
 from gmds.pictures.figure import Panel
 from gmds.pictures.judgement import judgement
+from gmds.pictures.matching_colours import matching_colours
 from gmds.pictures.named import marks_of
 from gmds.pictures.software import Shot
 from gmds.pictures.values import coloured
@@ -98,7 +99,7 @@ def map_panels(
 ) -> list[Panel]:
     """The two or three views of `write_picture`."""
     view = broadside(answer.source, up)
-    colours = position_colours(answer.target.vertices)
+    colours = matching_colours(answer.target).copy()
     pulled = answer.points.interpolate(colours)
     pulled[~answer.valid] = MISSING
     colours[~covered_of(answer)] = MISSING

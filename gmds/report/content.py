@@ -22,11 +22,11 @@ from gmds.pictures.colours import (
     diverging_colours,
     few_known,
     nearest_known,
-    position_colours,
     shown_range,
     symmetric_reach,
     value_colours,
 )
+from gmds.pictures.matching_colours import matching_colours
 from gmds.report.candidates import maps_of
 from gmds.report.drawing import Drawing
 from gmds.report.landmarks import Both, places
@@ -58,7 +58,7 @@ def content(
         "maps": maps,
         "words": WORDS,
         "landmarks": [{"name": name, "at": places(at, drawn)} for name, *at in given],
-        "colours": levels(position_colours(answer.target.vertices)[drawn[1].origin]),
+        "colours": levels(matching_colours(answer.target)[drawn[1].origin]),
         "ramp": levels(value_colours(np.linspace(0, 1, 128), 0, 1)),
         "signedRamp": levels(diverging_colours(np.linspace(-1, 1, 129), 1)),
         "missing": levels(np.array(MISSING)).tolist(),
@@ -71,7 +71,7 @@ def maps_content(answer: PointMap, errors: Floats | None, drawn: Both, title: st
     maps = maps_of(answer)
     rows: list[Floats | None] = [None] * len(maps) if errors is None else [*errors, *[None] * (len(maps) - len(errors))]
     fields = [_fields(one, row) for one, row in zip(maps, rows, strict=True)]
-    colours = position_colours(answer.target.vertices)
+    colours = matching_colours(answer.target)
     words = told(answer, errors)
     return [
         {"name": name, "note": note, "told": of_it.as_data(), **_map(one, drawn, colours, values)}
