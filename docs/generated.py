@@ -69,8 +69,11 @@ def table_of(source: str) -> str:
 
 
 def _in_a_cell(sentence: str) -> str:
-    """A sentence of a docstring in a table of Markdown."""
-    return re.sub(r":\w+:`([^`]*)`", r"`\1`", sentence).replace("|", "\\|").replace("*", "\\*")
+    """A sentence of a docstring in a table of Markdown: formulas stay formulas, other roles are names."""
+    parts = re.split(r":math:`([^`]*)`", sentence)
+    parts[::2] = [re.sub(r":\w+:`([^`]*)`", r"`\1`", text).replace("*", "\\*") for text in parts[::2]]
+    parts[1::2] = [f"{{math}}`{formula}`" for formula in parts[1::2]]
+    return "".join(parts).replace("|", "\\|")
 
 
 def error_codes() -> Iterator[tuple[str, type[Exception]]]:

@@ -62,4 +62,4 @@ def write_atlas_picture(path: Path, atlas: Atlas, mean: Mesh, varying: Floats) -
         caption = atlas.names[i] + ("" if atlas.valid[i].all() else " (grey: missing)")
         values = np.where(atlas.valid[i], varying, np.nan)
         shown.append((caption, Mesh(atlas.configurations[i], atlas.faces), values))
-    write_values(path, shown, label="standard deviation / √area", pixels=420)
+    write_values(path, shown, label="standard deviation / √area", pixels=420, columns=2)

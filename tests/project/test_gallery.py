@@ -21,6 +21,7 @@ LARGEST = 150_000  # bytes of a picture
 @pytest.fixture
 def gallery(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
     monkeypatch.setattr(sys, "argv", ["gallery.py"])
+    monkeypatch.syspath_prepend(str(SCRIPT.parent))
     return runpy.run_path(str(SCRIPT))
 
 
