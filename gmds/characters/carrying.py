@@ -13,6 +13,7 @@ from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
 from gmds.appearance.names import faces_under
 from gmds.appearance.seams import carry_uv
+from gmds.characters.own_look import dressed, on_every_part
 from gmds.characters.scene import Scene, read_scene
 from gmds.characters.skeleton import fitted
 from gmds.characters.writing import Carried, encoded
@@ -36,7 +37,9 @@ class Told:
     faces_on_seams: int
 
 
-def carry_scene(answer: PointMap, path: Path, *, rig: bool = True, most: int = MOST) -> tuple[bytes, Told]:
+def carry_scene(
+    answer: PointMap, path: Path, *, rig: bool = True, most: int = MOST, own: Path | None = None
+) -> tuple[bytes, Told]:
     """The source of a map as a GLB file with all that a scene of the target says of it.
 
     Each face of the source goes to the part and the material where its middle goes; parts keep their names, materials
@@ -54,6 +57,9 @@ def carry_scene(answer: PointMap, path: Path, *, rig: bool = True, most: int = M
         Whether bones and shapes to morph to are carried.
     most : int
         How many bones may hold a vertex, at most 4.
+    own : Path, optional
+        The file of the source, GLB or glTF: parts, materials, texture coordinates and colours are those of this file,
+        and only bones and shapes to morph to come from the target.
 
     Returns
     -------
@@ -74,10 +80,11 @@ def carry_scene(answer: PointMap, path: Path, *, rig: bool = True, most: int = M
     gmds.appearance.write_look : Colours or one texture, in other formats.
     """
     scene = read_scene(path, answer.target, rig=rig)
+    mine = None if own is None else read_scene(own, answer.source, rig=False)
     source, face = answer.source, answer.points.face
     points = SurfacePoints(scene.surface, face, answer.points.barycentric)
     carried_uv, across = {}, np.zeros(source.n_faces, dtype=bool)
-    for name, uv in scene.coordinates.items():
+    for name, uv in scene.coordinates.items() if mine is None else ():
         carried_uv[name], torn = carry_uv(answer, uv)
         across |= torn
     weights = carry_weights(points, scene.weights, most=min(most, MOST)) if scene.bones else np.zeros((len(points), 0))
@@ -86,18 +93,17 @@ def carry_scene(answer: PointMap, path: Path, *, rig: bool = True, most: int = M
         held = carry_weights(points, scene.weights)
         there, here = points.positions, source.vertices
         worlds = fitted(scene, held, there, here, _mass(source) * answer.valid)
-    carried = Carried(
-        mesh=source,
-        piece=_piece_of_faces(scene, answer),
-        weights=weights,
-        worlds=worlds,
-        shapes=_shapes(scene, answer, points),
-        coordinates=carried_uv,
-        colours=None if scene.colours is None else _colours(points, scene.colours),
-    )
+    shapes = _shapes(scene, answer, points)
+    n_shapes = sum(map(len, shapes.values()))
+    if mine is None:
+        piece = _piece_of_faces(scene, answer)
+        colours = None if scene.colours is None else _colours(points, scene.colours)
+    else:
+        scene, shapes = dressed(scene, mine), on_every_part(shapes, mine)
+        piece, carried_uv, colours = mine.piece_of_face, mine.coordinates, mine.colours
+    carried = Carried(source, piece, weights, worlds, shapes, carried_uv, colours)
     content, parts = encoded(scene, carried)
-    named = [str(each.get("name", "")) for each in scene.gltf.tree.get("materials", [])]
-    n_shapes = sum(map(len, carried.shapes.values()))
+    named = [str(each.get("name", "")) for each in (scene.look or scene.gltf).tree.get("materials", [])]
     return content, Told(
         parts, named, carried.names, carried.colours is not None, len(scene.bones), n_shapes, int(across.sum())
     )

@@ -37,6 +37,7 @@ class Scene:
 
     `bones` are numbers of nodes, a column each of `weights` (n, b), whose rows sum to 1; both are empty where there is
     no skin. `shapes` are displacements (k, n, 3) by place; `coordinates` (m, 3, 2) by their names in the file.
+    `look` has the materials, where they are of another file.
     """
 
     gltf: Gltf
@@ -48,6 +49,7 @@ class Scene:
     shapes: dict[int, Floats]
     coordinates: dict[str, Floats]
     colours: NDArray[np.uint8] | None
+    look: Gltf | None = None
 
     @property
     def piece_of_face(self) -> Integers:

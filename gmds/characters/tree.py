@@ -18,16 +18,19 @@ NOT_WRITTEN = (  # extensions of numbers that are written anew, plainly
     "EXT_meshopt_compression",
     "KHR_meshopt_compression",
 )
+VARIANTS = "KHR_materials_variants"
 SAME = 1e-9  # relative: a node whose transform changes by less keeps it as it was written
 UNSHEARED = 1e-6  # relative: what translation, rotation and scale may miss of a transform
 
 
-def start_of(gltf: Gltf, packer: Packer) -> dict[str, Any]:
-    """A copy of the description without meshes, skins and numbers; images are packed."""
+def start_of(gltf: Gltf, packer: Packer, look: Gltf | None = None) -> dict[str, Any]:
+    """A copy of the description without meshes, skins and numbers; materials are those of `look`, images are packed."""
     tree = copy.deepcopy(gltf.tree)
+    if look is not None:
+        _take_materials(tree, look.tree)
     for image in tree.get("images", []):
         if "bufferView" in image:
-            image["bufferView"] = packer.view(gltf.bytes_of_view(image["bufferView"], "an image")[0])
+            image["bufferView"] = packer.view((look or gltf).bytes_of_view(image["bufferView"], "an image")[0])
     for name in ("animations", "accessors", "bufferViews", "buffers", "skins", "meshes"):
         tree.pop(name, None)
     for name in ("extensionsUsed", "extensionsRequired"):
@@ -41,6 +44,20 @@ def start_of(gltf: Gltf, packer: Packer) -> dict[str, Any]:
         below = {child for node in tree["nodes"] for child in node.get("children", [])}
         tree["scenes"], tree["scene"] = [{"nodes": [i for i in range(len(tree["nodes"])) if i not in below]}], 0
     return tree
+
+
+def _take_materials(tree: dict[str, Any], look: dict[str, Any]) -> None:
+    """Materials, with their textures and the extensions that they need, of another description."""
+    for name in ("materials", "textures", "images", "samplers", "extensionsRequired"):
+        tree.pop(name, None)
+        tree |= {name: copy.deepcopy(look[name])} if name in look else {}
+    used = list(dict.fromkeys([*tree.pop("extensionsUsed", []), *look.get("extensionsUsed", [])]))
+    tree |= {"extensionsUsed": used} if used else {}
+    about = tree.pop("extensions", {})
+    about.pop(VARIANTS, None)
+    if VARIANTS in look.get("extensions", {}):
+        about[VARIANTS] = copy.deepcopy(look["extensions"][VARIANTS])
+    tree |= {"extensions": about} if about else {}
 
 
 def node_for(tree: dict[str, Any], place: Placed, bones: list[int], worlds: dict[int, Floats]) -> dict[str, Any]:

@@ -45,7 +45,7 @@ def encoded(scene: Scene, carried: Carried) -> tuple[bytes, list[str]]:
     if np.abs(carried.mesh.vertices).max() > np.finfo(np.float32).max:
         raise CoordinateRange("coordinates do not fit the single precision of .glb; write .ply or .off instead")
     packer = Packer()
-    tree = start_of(scene.gltf, packer)
+    tree = start_of(scene.gltf, packer, scene.look)
     if carried.worlds:
         move_nodes(tree, scene.gltf, carried.worlds)
         _add_skin(scene, carried, packer, tree)

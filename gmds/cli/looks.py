@@ -43,12 +43,27 @@ def tell_what_is_rounded(answer: Correspondence, output: Path, *, centered: bool
         note(str(told))
 
 
-def scene_carried(answer: Correspondence, file: Path, output: Path, rig: bool, most: int | None) -> dict[str, Any]:
-    """Parts and materials of a scene of the target, with `rig` also bones and shapes, to a .glb; what was done."""
+def own_look_of(source: Path, asked: bool | None) -> Path | None:
+    """The file of the source where it keeps its own materials: as asked for, or else where it has some."""
+    from gmds.characters import has_look
+
+    if asked is False or not (has := has_look(source)):
+        if asked and not has:
+            raise click.UsageError(f"{source} has no materials of its own; --own-look is for a .glb that does")
+        return None
+    if asked is None:
+        note(f"{source} keeps its own materials; --carried-look takes those of the target")
+    return source
+
+
+def scene_carried(
+    answer: Correspondence, file: Path, output: Path, rig: bool, most: int | None, own: Path | None = None
+) -> dict[str, Any]:
+    """Parts and materials of a scene, or of the file `own`, with `rig` bones and shapes, to a .glb; what was done."""
     from geodesics.io import atomic_write
     from gmds.characters import carry_scene
 
-    content, told = carry_scene(answer, file, rig=rig, most=most or 4)
+    content, told = carry_scene(answer, file, rig=rig, most=most or 4, own=own)
     if not (told.materials or told.coordinates or told.coloured or told.bones or told.shapes):
         raise click.UsageError(f"{file} has neither colours nor texture coordinates; give --values")
     with atomic_write(output) as stream:

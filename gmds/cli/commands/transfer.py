@@ -7,17 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from gmds.cli.carried_values import KINDS, METHODS, as_colours, carried_values
 from gmds.cli.fields import FILE, picture_option, write_field
 from gmds.cli.group import Command
-from gmds.cli.looks import COLOURS, is_scene, look_carried, scene_carried, tell_what_is_lost, tell_what_is_rounded
+from gmds.cli.looks import is_scene, look_carried, own_look_of, scene_carried, tell_what_is_lost, tell_what_is_rounded
 from gmds.cli.looks_drawn import draw_looks, draw_values
 from gmds.cli.output import emit, json_option, note, valid_count
 from gmds.cli.paths import EndingIn
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
     from gmds import Correspondence
     from gmds.appearance import Polygons
 
@@ -25,14 +23,6 @@ if TYPE_CHECKING:
 MESHES = (".obj", ".ply", ".glb", ".vtp")
 VALUES = EndingIn(".npy", ".csv", ".txt", written=False)
 IMAGE = EndingIn(".png", ".jpg", ".jpeg", written=False)
-KINDS = ("numbers", "labels", "weights", "vectors", "colours")
-METHODS = {
-    "numbers": "by interpolation",
-    "labels": "as labels",
-    "weights": "by interpolation, rows summing to 1",
-    "vectors": "turned as the map turns the surface",
-    "colours": COLOURS,
-}
 
 
 @click.command(cls=Command, short_help="Carry values, colours or a texture along a map.")
@@ -46,6 +36,11 @@ METHODS = {
 @click.option("--texture", type=IMAGE, help="Image that an OBJ has coordinates of.")
 @click.option("--look", type=FILE, help="File with colours or texture, when that of the target has none; same faces.")
 @click.option("--rig", is_flag=True, help="Carry skeleton, weights and shapes to morph to, .glb to .glb.")
+@click.option(
+    "--own-look/--carried-look",
+    default=None,
+    help="With --rig: keep materials and textures of a .glb SOURCE.  [default: where it has some]",
+)
 @click.option(
     "-o", "--output", required=True, type=EndingIn(".npy", ".csv", *MESHES), help="Where the carried values go."
 )
@@ -81,7 +76,8 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
     is carried: its vertex colours (.ply, .obj, .glb), or its texture, to an .obj with a .mtl and a .png, or to a .glb;
     to an .obj also the names of objects, groups and materials.
     From .glb to .glb parts and materials are carried with their names and images; with --rig so are the skeleton, moved
-    into the source, weights (four to a vertex at most; --most) and shapes to morph to. What is not carried is told.
+    into the source, weights (four to a vertex at most; --most) and shapes to morph to, and a source that has materials
+    of its own keeps them (--carried-look takes those of the target). What is not carried is told.
     --kind weights carries weights of bones from a table.
     Polygons of the source's file stay what they were in .obj, .ply and .vtp.
     Where the texture is cut, faces whose corners go to different sides take all of it from one side, stretched up to
@@ -105,19 +101,22 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
     look, kept = options["look"] or target, False
     if options["rig"] and (options["values"] or output.suffix.lower() != ".glb" or not is_scene(look)):
         raise click.UsageError("--rig carries what is in a .glb to a .glb, without --values")
+    if options["own_look"] is not None and not options["rig"]:
+        raise click.UsageError("--own-look and --carried-look are for --rig")
+    own = own_look_of(source, options["own_look"]) if options["rig"] else None
     if options["values"] is None:
         if options["kind"] or options["labels"]:
             raise click.UsageError("--kind and --labels are for --values")
         kept = output.suffix.lower() == ".glb" and is_scene(look) and not options["texture"]
         if options["most"] and not (kept and options["rig"]):
             raise click.UsageError("--most is for --kind weights, and for --rig")
-        result |= _carry_look(answer, look, output, polygons, {**options, "source": source, "kept": kept})
+        result |= _carry_look(answer, look, output, polygons, {**options, "source": source, "kept": kept, "own": own})
     else:
         if options["most"] and kind != "weights":
             raise click.UsageError("--most is for --kind weights, and for --rig")
         result |= _carry_values(answer, kind, output, polygons, {**options, "source": source})
     if is_mesh:
-        tell_what_is_lost(source, polygons=output.suffix.lower() != ".glb")
+        tell_what_is_lost(source, materials=own is not None, polygons=output.suffix.lower() != ".glb")
         named = output.suffix.lower() == ".obj" and options["values"] is None
         tell_what_is_lost(look, materials=kept, names=named, rig=kept and options["rig"])
         tell_what_is_rounded(answer, output, centered=not kept)
@@ -135,7 +134,7 @@ def _carry_look(
         told, *looks = look_carried(answer, look, options["texture"], output, polygons)
         draw_looks(picture, answer, source, *looks)
         return told
-    told = scene_carried(answer, look, output, options["rig"], options["most"])
+    told = scene_carried(answer, look, output, options["rig"], options["most"], options["own"])
     if picture:
         draw_looks(picture, answer, source, read_look(look, answer.target), read_look(output, answer.source))
     return told
@@ -154,8 +153,8 @@ def _carry_values(
     if given.dtype.kind in "iu" and given.ndim == 1 and kind == "numbers":
         note("values are whole numbers and get interpolated; --labels carries them as names")
     if kind == "colours":
-        given = _as_colours(given, file)
-    carried = _carried(answer, given, kind, options["most"])
+        given = as_colours(given, file)
+    carried = carried_values(answer, given, kind, options["most"])
     table = carried.reshape(len(carried), -1)
     result: dict[str, Any] = {"columns": table.shape[1], "carried": METHODS[kind]}
     if kind == "weights" and (unheld := int((table.sum(axis=1) == 0).sum())):
@@ -175,23 +174,3 @@ def _carry_values(
         write_field(output, {"values": carried}, dict(zip(names, table.T, strict=True)))
     draw_values(options["picture"], answer, options["source"], kind, (given.reshape(len(given), -1), table))
     return result
-
-
-def _carried(answer: Correspondence, given: NDArray[Any], kind: str, most: int | None) -> NDArray[Any]:
-    if kind == "weights":
-        from gmds.maps.values import carry_weights
-
-        return carry_weights(answer.points, given.reshape(len(given), -1), most=most)
-    if kind == "vectors":
-        from gmds.maps.vectors import carry_vectors
-
-        return carry_vectors(answer, given)
-    return answer.transfer(given, labels=kind == "labels")
-
-
-def _as_colours(given: NDArray[Any], file: Path) -> NDArray[np.uint8]:
-    import numpy as np
-
-    if given.ndim != 2 or given.shape[1] not in (3, 4) or not ((given >= 0) & (given <= 255)).all():
-        raise click.UsageError(f"{file}: colours are three or four columns of numbers from 0 to 255")
-    return np.rint(given).astype(np.uint8)
