@@ -103,7 +103,8 @@ def carry_scene(
         piece, carried_uv, colours = mine.piece_of_face, mine.coordinates, mine.colours
     carried = Carried(source, piece, weights, worlds, shapes, carried_uv, colours)
     content, parts = encoded(scene, carried)
-    named = [str(each.get("name", "")) for each in (scene.look or scene.gltf).tree.get("materials", [])]
+    materials = (scene.look or scene.gltf).tree.get("materials", [])
+    named = [str(each.get("name") or f"number {number}") for number, each in enumerate(materials)]
     return content, Told(
         parts, named, carried.names, carried.colours is not None, len(scene.bones), n_shapes, int(across.sum())
     )

@@ -16,15 +16,13 @@ if TYPE_CHECKING:
     from geodesics.arrays import Floats
     from gmds import Correspondence
     from gmds.appearance import Look
+    from gmds.pictures.camera import Direction
 
 GIVEN = ("target, as given", "source, carried")
 
 
-def draw_looks(picture: Path | None, answer: Correspondence, source: Path, given: Look, carried: Look) -> None:
-    """The picture that was asked for of what is on the target and what was carried.
-
-    `source` is the file of the source, whose ending says what is up.
-    """
+def draw_looks(picture: Path | None, answer: Correspondence, up: Direction, given: Look, carried: Look) -> None:
+    """The picture that was asked for of what is on the target and what was carried; `up` of the source."""
     if picture is None:
         return
     from gmds.pictures.values import write_coloured
@@ -38,11 +36,11 @@ def draw_looks(picture: Path | None, answer: Correspondence, source: Path, given
         else:
             raise click.UsageError("there is nothing to draw: neither colours nor an image; give it with --texture")
     panels = list(zip(GIVEN, (answer.target, answer.source), looks, strict=True))
-    tell_written(picture, write_coloured(picture, panels, views=_views(answer, source)))
+    tell_written(picture, write_coloured(picture, panels, views=_views(answer, up)))
 
 
 def draw_values(
-    picture: Path | None, answer: Correspondence, source: Path, kind: str, tables: tuple[NDArray[Any], NDArray[Any]]
+    picture: Path | None, answer: Correspondence, up: Direction, kind: str, tables: tuple[NDArray[Any], NDArray[Any]]
 ) -> None:
     """The picture that was asked for of values (n, columns) of the target and of those carried.
 
@@ -52,7 +50,7 @@ def draw_values(
         return
     from gmds.pictures.values import write_coloured, write_values
 
-    views, meshes = _views(answer, source), (answer.target, answer.source)
+    views, meshes = _views(answer, up), (answer.target, answer.source)
     if kind in ("weights", "colours"):
         looks = [table[:, :3] / 255 if kind == "colours" else _mixed(table) for table in tables]
         told = write_coloured(picture, list(zip(GIVEN, meshes, looks, strict=True)), views=views)
@@ -64,12 +62,11 @@ def draw_values(
     tell_written(picture, told)
 
 
-def _views(answer: Correspondence, source: Path) -> list[Floats]:
+def _views(answer: Correspondence, up: Direction) -> list[Floats]:
     """The cameras of target and source."""
-    from gmds.cli.directions import upwards
     from gmds.pictures.camera import alignment, broadside
 
-    view = broadside(answer.source, upwards(None, str(source)))
+    view = broadside(answer.source, up)
     return [view @ alignment(answer), view]
 
 

@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from gmds.cli.carried_values import KINDS, METHODS, as_colours, carried_values
+from gmds.cli.directions import upwards
 from gmds.cli.fields import FILE, picture_option, write_field
 from gmds.cli.group import Command
 from gmds.cli.looks import is_scene, look_carried, own_look_of, scene_carried, tell_what_is_lost, tell_what_is_rounded
 from gmds.cli.looks_drawn import draw_looks, draw_values
 from gmds.cli.output import emit, json_option, note, valid_count
 from gmds.cli.paths import EndingIn
+from gmds.cli.view_options import up_option
 
 if TYPE_CHECKING:
     from gmds import Correspondence
@@ -45,6 +47,7 @@ IMAGE = EndingIn(".png", ".jpg", ".jpeg", written=False)
     "-o", "--output", required=True, type=EndingIn(".npy", ".csv", *MESHES), help="Where the carried values go."
 )
 @picture_option
+@up_option
 @json_option
 def command(map_file: Path, source: Path, target: Path, output: Path, as_json: bool, **options: Any) -> None:
     """Carry what is on the target along the map in MAP, to the source.
@@ -88,6 +91,7 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
     from gmds import Correspondence
     from gmds.appearance import polygons_of
 
+    options["up"] = upwards(options["up"], str(source))
     kind = "labels" if options["labels"] else options["kind"] or "numbers"
     if options["labels"] and options["kind"] not in (None, "labels"):
         raise click.UsageError("--labels is --kind labels; give one of them")
@@ -110,11 +114,11 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
         kept = output.suffix.lower() == ".glb" and is_scene(look) and not options["texture"]
         if options["most"] and not (kept and options["rig"]):
             raise click.UsageError("--most is for --kind weights, and for --rig")
-        result |= _carry_look(answer, look, output, polygons, {**options, "source": source, "kept": kept, "own": own})
+        result |= _carry_look(answer, look, output, polygons, {**options, "kept": kept, "own": own})
     else:
         if options["most"] and kind != "weights":
             raise click.UsageError("--most is for --kind weights, and for --rig")
-        result |= _carry_values(answer, kind, output, polygons, {**options, "source": source})
+        result |= _carry_values(answer, kind, output, polygons, options)
     if is_mesh:
         tell_what_is_lost(source, materials=own is not None, polygons=output.suffix.lower() != ".glb")
         named = output.suffix.lower() == ".obj" and options["values"] is None
@@ -129,14 +133,14 @@ def _carry_look(
     """What a file looks like, to a mesh; what was done."""
     from gmds.appearance import read_look
 
-    picture, source = options["picture"], options["source"]
+    picture, up = options["picture"], options["up"]
     if not options["kept"]:
         told, *looks = look_carried(answer, look, options["texture"], output, polygons)
-        draw_looks(picture, answer, source, *looks)
+        draw_looks(picture, answer, up, *looks)
         return told
     told = scene_carried(answer, look, output, options["rig"], options["most"], options["own"])
     if picture:
-        draw_looks(picture, answer, source, read_look(look, answer.target), read_look(output, answer.source))
+        draw_looks(picture, answer, up, read_look(look, answer.target), read_look(output, answer.source))
     return told
 
 
@@ -172,5 +176,5 @@ def _carry_values(
     else:
         names = ["value"] if table.shape[1] == 1 else [f"value_{i}" for i in range(table.shape[1])]
         write_field(output, {"values": carried}, dict(zip(names, table.T, strict=True)))
-    draw_values(options["picture"], answer, options["source"], kind, (given.reshape(len(given), -1), table))
+    draw_values(options["picture"], answer, options["up"], kind, (given.reshape(len(given), -1), table))
     return result

@@ -122,7 +122,7 @@ def test_all_bones_are_shown_and_the_target_from_the_side_of_the_source(
     bones = np.eye(4)[np.arange(210) % 4]
     kept = {}
     monkeypatch.setattr("gmds.pictures.values.write_panels", lambda path, panels, *_: kept.update(panels=panels) or "")
-    draw_values(tmp_path / "a.png", answer, Path("dog.ply"), "weights", (bones, bones[:200]))
+    draw_values(tmp_path / "a.png", answer, (0, 0, 1), "weights", (bones, bones[:200]))
     panels: list[Panel] = kept["panels"]
     assert np.allclose(panels[0].shot.colours, label_colours(np.arange(4))[np.arange(210) % 4])
     ups = [panel.shot.rotation[1] for panel in panels]
