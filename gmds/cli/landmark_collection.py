@@ -59,6 +59,7 @@ def landmark_collection(folder: Path, template: Path, landmarks: Path, output: P
 def _lines() -> Callable[[str, float], None]:
     """Progress as a line for every thing that is done, where stderr is no terminal."""
     last = [""]
+    note("the template is matched with every specimen; a line is written for each that is done")
 
     def tell(stage: str, fraction: float) -> None:
         if stage != last[0]:
