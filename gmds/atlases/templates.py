@@ -18,6 +18,7 @@ from gmds.batch.store import Store
 from gmds.batch.workers import outcomes
 from gmds.comparison.profiles import FUNCTIONS, least_distortion, profile_of_views
 from gmds.files.npz import read_npz
+from gmds.matching.large_surfaces import coarse
 from gmds.surface.measured import EXPONENTS
 
 Progress = Callable[[str, float], None]
@@ -68,7 +69,7 @@ def profile(job: ProfileJob) -> Floats:
     found = _kept(path)
     if not len(found):
         surface = job.store.surface(record)
-        found = profile_of_views([surface.curved(exponent).first(FUNCTIONS) for exponent in EXPONENTS])
+        found = profile_of_views([coarse(surface).curved(exponent).first(FUNCTIONS) for exponent in EXPONENTS])
         with atomic_write(path) as stream:
             np.savez(stream, profile=found)
     return found

@@ -141,7 +141,7 @@ class _Run:
             "parts": self.options.get("parts", "auto"),
             "rng": self.options.get("rng", 0),
         }
-        self.store = Store(self.folder / "shapes")
+        self.store = Store(self.folder / "shapes", whole=self.options.get("distance") is not None)
 
     def work(self, client: Any) -> None:
         """Measure what is to be measured, match what is to be matched."""

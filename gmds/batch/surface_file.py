@@ -4,8 +4,9 @@ Members: `original_*`, `mesh_*`: vertices and faces of the mesh, and of its larg
 `face_index`; of a mesh with faults `given_*`, of which the original is the clean copy, and `clean_*`, how they
 correspond; for each view (`view0`, `view1`, `view2`) its mass, eigenvalues, eigenfunctions and cells of farthest
 points; `curvature`; `outline_*`: vertices, faces and origin of the simplified mesh, unless it is the whole;
-`reversing`, if there is such a self-map. Numbers keep all their bits: surfaces from files are matched as the meshes
-are.
+`reversing`, if there is such a self-map. Of a surface that is matched as a copy with fewer vertices all that comes
+after the correspondence is that of the copy, with its meshes, as `copy_*`. Numbers keep all their bits: surfaces from
+files are matched as the meshes are.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from geodesics.repair.cleaning import CleanCopy
 from geodesics.sampling import Cells
 from gmds.errors import SurfaceFileError
 from gmds.files.npz import read_npz
+from gmds.matching.large_surfaces import coarse
 from gmds.matching.pair import reversing, simplified
 from gmds.registration.deformable import DeformableMesh
 from gmds.spectral.refinement import CARRIERS, GOALS
@@ -31,15 +33,23 @@ from gmds.spectral.sample_maps import TARGET_SAMPLES
 from gmds.surface.measured import EXPONENTS, Surface
 from gmds.surface.view import View
 
-VERSION = 3  # of the layout; a file of another is measured again
+VERSION = 4  # of the layout; a file of another is measured again
+
+COPY = "copy_"  # begins the names of what belongs to the copy
 
 Arrays = dict[str, NDArray[Any]]
 
 
-def write_surface(path: str | os.PathLike[str], surface: Surface) -> None:
-    """Compute what `match` will want to know of the surface, and write it atomically; raises `OSError`."""
+def write_surface(path: str | os.PathLike[str], surface: Surface, *, whole: bool = False) -> None:
+    """Compute what `match` will want to know of the surface, and write it atomically; raises `OSError`.
+
+    `whole`: of the surface itself, as `match` in a given distance does, also where it would else take a copy.
+    """
+    copy = surface if whole else coarse(surface)
+    found = _base(surface)
+    found |= _measured(surface) if copy is surface else {f"{COPY}{k}": a for k, a in _arrays(copy).items()}
     with atomic_write(path) as stream:
-        np.savez(stream, **_arrays(surface))  # type: ignore[arg-type]
+        np.savez(stream, **found)  # type: ignore[arg-type]
 
 
 def read_surface(path: str | os.PathLike[str]) -> Surface:
@@ -52,11 +62,20 @@ def read_surface(path: str | os.PathLike[str]) -> Surface:
 
 
 def _arrays(surface: Surface) -> Arrays:
+    return _base(surface) | _measured(surface)
+
+
+def _base(surface: Surface) -> Arrays:
+    """The meshes, and how they belong together."""
     found: Arrays = {"version": np.array(VERSION), "face_index": surface.face_index}
     for name, mesh in (("original", surface.original), ("mesh", surface.mesh)):
         found |= {f"{name}_vertices": mesh.vertices, f"{name}_faces": mesh.faces}
-    if surface.clean is not None:
-        found |= _clean_arrays(surface.clean)
+    return found if surface.clean is None else found | _clean_arrays(surface.clean)
+
+
+def _measured(surface: Surface) -> Arrays:
+    """What takes long to compute."""
+    found: Arrays = {}
     surface.regular.samples(GOALS)
     surface.regular.cells(CARRIERS)
     for number, view in enumerate(surface.views):
@@ -97,6 +116,9 @@ def _surface(arrays: Arrays) -> Surface:
         raise ValueError(f"version {arrays['version']}, not {VERSION}")
     original, mesh = (Mesh(arrays[f"{name}_vertices"], arrays[f"{name}_faces"]) for name in ("original", "mesh"))
     surface = Surface(original, mesh, arrays["face_index"], clean=_clean(arrays, original))
+    if f"{COPY}version" in arrays:
+        keep(coarse, surface, _surface({k.removeprefix(COPY): a for k, a in arrays.items() if k.startswith(COPY)}))
+        return surface
     views = tuple(_view(arrays, f"view{i}", mesh) for i in range(sum(f"view{i}_mass" in arrays for i in range(9))))
     for exponent, view in zip(EXPONENTS, views[:-1], strict=True):
         keep(Surface.curved, surface, view, exponent)

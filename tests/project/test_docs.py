@@ -159,6 +159,17 @@ def test_every_public_name_is_in_the_reference(package: str) -> None:
     assert sorted(listed) == importlib.import_module(package).__all__
 
 
+@pytest.mark.parametrize("package", ["gmds", "geodesics"])
+def test_formulas_in_summary_tables_are_formulas(package: str) -> None:
+    """What is TeX is said to be mathematics, and bars of a formula do not end a cell."""
+    summary = runpy.run_path(str(ROOT / "docs" / "generated.py"))["summary_of"](package)
+    assert "{math}`" in summary
+    rows = [line for line in summary.splitlines() if line.startswith("| {py:")]
+    for row in rows:
+        assert len(re.findall(r"(?<!\\)\|", row)) == 3, row
+        assert not re.search(r"\\[a-z]{2,}", re.sub(r"\{math\}`[^`]*`", "", row)), row
+
+
 def test_no_two_errors_have_the_same_code() -> None:
     codes = runpy.run_path(str(ROOT / "docs" / "generated.py"))["error_codes"]()
     by_code: dict[str, list[str]] = {}
