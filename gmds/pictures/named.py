@@ -14,6 +14,10 @@ from gmds.pictures.software import OVERSAMPLING, Shot
 CLOSE = 0.02  # of the size of a surface by which a point may lie behind what covers it, and is seen all the same
 HALO = 2.5  # points of white about the letters of a name; set by hand
 LETTER, AWAY = 7, 6  # pixels of a view: of a letter at most, and from a point to its name, which stands outside
+HIGH = 11  # pixels of a view: of letters of 8 points
+
+
+Box = tuple[float, float, float, float]  # left, upper, right and lower pixel of a name
 
 
 class Mark(NamedTuple):
@@ -42,11 +46,35 @@ def write_names(axis: Any, marks: Iterable[Mark], wide: float, size: float = 8) 
     from matplotlib.patheffects import withStroke
 
     halo = [withStroke(linewidth=HALO, foreground="white")]
-    for name, x, y, ink in marks:
-        left = leftwards(x, name, wide)
-        at = x - AWAY if left else x + AWAY
-        side = "right" if left else "left"
-        axis.text(at, y - AWAY, name, fontsize=size, color=ink, parse_math=False, ha=side, path_effects=halo)
+    taken: list[Box] = []
+    for mark in marks:
+        left, box = free_place(mark, wide, taken)
+        taken.append(box)
+        at, side = (box[2], "right") if left else (box[0], "left")
+        look = {"fontsize": size, "color": mark.ink, "parse_math": False, "path_effects": halo}
+        axis.text(at, box[3], mark.name, ha=side, **look)
+
+
+def free_place(mark: Mark, wide: float, taken: Sequence[Box]) -> tuple[bool, Box]:
+    """Whether a name stands left of its point, and where: above it, on the outer side, unless another name is there.
+
+    Then it stands below, or on the other side, or as much higher or lower as it takes, up to four lines.
+    """
+    outer, long = leftwards(mark.x, mark.name, wide), len(mark.name) * LETTER
+    tried: list[tuple[bool, Box]] = []
+    for line in range(4):
+        for below, left in ((False, outer), (True, outer), (False, not outer), (True, not outer)):
+            foot = mark.y + AWAY + (line + 1) * HIGH if below else mark.y - AWAY - line * HIGH
+            start = mark.x - AWAY - long if left else mark.x + AWAY
+            box = (start, foot - HIGH, start + long, foot)
+            if not any(_meet(box, other) for other in taken):
+                return left, box
+            tried.append((left, box))
+    return tried[0]
+
+
+def _meet(one: Box, other: Box) -> bool:
+    return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]
 
 
 def leftwards(x: float, name: str, wide: float) -> bool:

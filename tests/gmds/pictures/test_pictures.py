@@ -19,6 +19,7 @@ from gmds.landmarks.checking import place_landmarks
 from gmds.pictures.camera import alignment, broadside
 from gmds.pictures.colours import BARE, MISSING, css, label_colours, position_colours, value_colours
 from gmds.pictures.figure import FORMATS
+from gmds.pictures.named import AWAY, HIGH, LETTER, Box, Mark, free_place
 from gmds.pictures.offscreen import offscreen
 from gmds.pictures.panels import map_panels, write_picture
 from gmds.pictures.software import Shot, render, software, view_rotation
@@ -291,6 +292,18 @@ def test_what_has_no_counterpart_is_grey_on_both_surfaces(answer: Correspondence
 
 def identity(mesh: Mesh) -> Correspondence:
     return Correspondence.from_points(mesh, SurfacePoints.at_vertices(mesh, np.arange(mesh.n_vertices)))
+
+
+def test_names_do_not_stand_on_each_other() -> None:
+    """A name alone is above its point on the outer side; of a crowd each has a place of its own."""
+    left, box = free_place(Mark("LM4", 220, 50), 400, [])
+    assert not left and box == (220 + AWAY, 50 - AWAY - HIGH, 220 + AWAY + 3 * LETTER, 50 - AWAY)
+    taken: list[Box] = []
+    for k in range(8):
+        taken.append(free_place(Mark(f"LM{k}", 200 + 5 * k, 60 + 2 * k), 400, taken)[1])
+    for i, one in enumerate(taken):
+        for other in taken[:i]:
+            assert one[2] <= other[0] or other[2] <= one[0] or one[3] <= other[1] or other[3] <= one[1]
 
 
 def test_marked_vertices_get_a_ball_where_they_can_be_seen(tmp_path: Path) -> None:
