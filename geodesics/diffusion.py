@@ -23,6 +23,9 @@ from geodesics.topology.components import vertex_components
 # Rows of a field that are computed at a time, so that temporaries stay in the cache. Measured with 1,500 rows of 5,000
 # vertices: 0.17 s; with 32, 128, 512 and 1,500 rows at a time 0.95, 0.23, 0.30 and 0.28 s.
 _BLOCK = 256
+# Of a diffusion distance unless the caller says otherwise: the one that `match` compares, chosen on development pairs
+# (benchmarks/results/notes.md, "Embedding").
+DEFAULT_TIME = 3e-3
 # An eigenvalue of a surface of unit area that is rounding: what is left where the shift, of order 1, is subtracted.
 NOTHING = 1e-13
 
@@ -102,7 +105,8 @@ class DiffusionDistance(_SpectralDistance):
         Eigenpairs of the surface in some metric; of a metric, or a mesh with its embedded metric, the first 100.
     time : float
         :math:`t` in units of the area in that metric, not negative. The k-th term fades about as
-        :math:`e^{-8 \pi k t}` (Weyl's law) whatever the size of the surface.
+        :math:`e^{-8 \pi k t}` (Weyl's law) whatever the size of the surface; at 3e-3, unless given, to a half after
+        nine terms.
 
     Raises
     ------
@@ -129,7 +133,7 @@ class DiffusionDistance(_SpectralDistance):
 
     time: float
 
-    def __init__(self, spectrum: Spectrum | Metric | Mesh, time: float) -> None:
+    def __init__(self, spectrum: Spectrum | Metric | Mesh, time: float = DEFAULT_TIME) -> None:
         spectrum = as_spectrum(spectrum)
         time = real_number(time, "time (in units of the area of the surface)", 0.0)
         object.__setattr__(self, "time", time)

@@ -46,6 +46,11 @@ def test_vertices_stand_for_points(distance: Any, vertices: Any) -> None:
     assert np.array_equal(distance.field(vertices), expected)
 
 
+def test_a_diffusion_distance_has_a_time_unless_one_is_given() -> None:
+    here, there = (geodesics.DiffusionDistance(SPECTRUM, *time).field(3) for time in ((), (3e-3,)))
+    assert np.array_equal(here, there)
+
+
 def test_vertices_in_other_places() -> None:
     points = SurfacePoints.at_vertices(MESH, [3])
     assert np.array_equal(DISTANCES["geodesic"].to_set([3]), DISTANCES["geodesic"].to_set(points))  # type: ignore[attr-defined]
