@@ -27,7 +27,7 @@ def solve_multiresolution(
     tolerance: float = 1e-3,
     progress: Callable[[str, float], None] | None = None,
 ) -> Solution:
-    """Solve for the first samples, given as `start`, then for `growth` times as many, until all are placed.
+    """Solve for the first samples, given as `start`, then for `growth` times as many, until all are placed (sec. 5).
 
     The samples of the problem should come in farthest-point order, so that the first k cover the surface. Between
     two levels each new sample goes to the vertex that best keeps its distances to the placed ones, and samples that

@@ -19,7 +19,7 @@ COLUMNS = 16384  # vertices that coordinates are computed of together: a bound o
 
 @dataclass(frozen=True, eq=False, init=False)
 class TabulatedDistance:
-    r"""A distance as a pseudo-Euclidean embedding, so that any pair of points is a short sum.
+    r"""A distance as a pseudo-Euclidean embedding, so that any pair of points is a short sum, as sec. 5 has need of.
 
     .. math:: d(x, y)^2 = \sum_k \sigma_k \, (e_k(x) - e_k(y))^2, \qquad \sigma_k = \pm 1
 

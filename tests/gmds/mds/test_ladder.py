@@ -9,7 +9,7 @@ from scipy.optimize import minimize
 
 from geodesics import CommuteTimeDistance, Mesh, SurfacePoints, distance_matrix, eigenpairs, farthest_point_sampling
 from geodesics.tracing import walk
-from gmds.mds.ladder import EXPONENTS, rungs_below, solve_by_ladder
+from gmds.mds.ladder import EXPONENTS, STEPS, rungs_below, solve_by_ladder
 from gmds.mds.losses import Huber, LeastSquares, Minimax, Power
 from gmds.mds.problem import Problem
 from gmds.mds.solver import Solution, solve
@@ -49,6 +49,18 @@ def test_a_maximum_is_never_below_what_every_map_must_have(found: tuple[Problem,
     certified = nearest.min(axis=1).max()
     between = np.diff(theirs, axis=1).max()  # images lie inside faces, and not at vertices
     assert certified > 0 and most.stress * asked.unit > certified - between
+
+
+def test_of_maps_with_the_same_maximum_the_one_with_less_squares_is_taken() -> None:
+    """Beside the maximum alone, from where the ladder ended."""
+    asked, start = problem(60)
+    most = solve_by_ladder(asked, start, Minimax(), max_iterations=100)
+    loose = start
+    for power in (2.0, *EXPONENTS):
+        loose = solve(asked, loose, Power(power), max_iterations=100 if power == 2 else STEPS).points
+    alone = solve(asked, loose, Minimax(), max_iterations=100)
+    assert most.stress <= 1.01 * alone.stress and most.certificate <= 0.01
+    assert np.mean(most.residuals**2) < 0.98 * np.mean(alone.residuals**2)
 
 
 def nearest_gap(values: np.ndarray, ascending: np.ndarray) -> float:
