@@ -112,7 +112,7 @@ class _Below(SmoothLoss):
 
     def curvature(self, residuals: Floats) -> Floats:
         """2, and twice the stiffness where a step may meet the wall: a bound of the second derivative."""
-        return 2 + 2 * STIFFNESS * (np.abs(residuals) > HEEDED * self.most)
+        return np.asarray(2 + 2 * STIFFNESS * (np.abs(residuals) > HEEDED * self.most), dtype=np.float64)
 
     def _above(self, residuals: Floats) -> Floats:
         return np.maximum(np.abs(residuals) - WALL * self.most, 0.0)
