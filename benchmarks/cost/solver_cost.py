@@ -49,16 +49,14 @@ def problem(count: int, vertices: int = 5000) -> tuple[gmds.Problem, SurfacePoin
 
 
 def solved(count: int, loss: str, *, at_once: bool) -> dict[str, Any]:
-    """CPU seconds, the peak of memory of the whole process, stress, certificate, and the error of the samples."""
+    """CPU seconds, the stress, the certificate, and the error of the samples."""
     small, start, _ = problem(30, 600)
     gmds.solve_by_ladder(small, start, getattr(gmds, loss)())
     asked, start, true = problem(count)
     cpu = time.process_time()
     found = (gmds.solve if at_once else gmds.solve_by_ladder)(asked, start, getattr(gmds, loss)())
-    cpu, peak = time.process_time() - cpu, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return {
-        "cpu": cpu,
-        "megabytes": peak / 2**10,
+        "cpu": time.process_time() - cpu,
         "stress": found.stress,
         "certificate": found.certificate,
         "error": float(100 * gmds.geodesic_error(found.points, true).mean()),
@@ -91,8 +89,7 @@ def page(found: dict[str, dict[str, Any]]) -> str:
             numbers = f"{row['cpu']:.1f}", f"{row['megabytes']:.0f}", f"{100 * row['gap']:.2f} %"
             tables.append([f"{row['vertices']:,}", kind, row["rank"], *numbers])
         else:
-            cost = f"{row['cpu']:.1f}", f"{row['megabytes']:.0f}"
-            numbers = *cost, f"{row['stress']:.3g}", f"{row['certificate']:.1g}", f"{row['error']:.2f}"
+            numbers = f"{row['cpu']:.1f}", f"{row['stress']:.3g}", f"{row['certificate']:.1g}", f"{row['error']:.2f}"
             solver.append([what, kind, "at once" if more else "", *numbers])
     return "\n".join(
         [
@@ -100,9 +97,8 @@ def page(found: dict[str, dict[str, Any]]) -> str:
             "",
             "`python -m benchmarks.cost.solver_cost`: see there for what is solved. Goals: 3",
             "CPU seconds for 2,000 samples with least squares, 10 for the maximum of 500, with a certificate of 1 %.",
-            "Megabytes are the peak of the process, libraries and both surfaces with their eigenfunctions included.",
             "",
-            *table(["samples", "loss", "", "CPU s", "MB", "stress", "certificate", "error x100"], solver),
+            *table(["samples", "loss", "", "CPU s", "stress", "certificate", "error x100"], solver),
             "",
             "## Geodesic distances of many vertices, tabulated",
             "",
