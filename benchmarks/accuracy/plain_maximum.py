@@ -10,7 +10,7 @@ import numpy as np
 from benchmarks.accuracy.runs import Rows, read_rows
 from benchmarks.markdown import table
 
-LATER = "8b8932b"  # the version that changed Minimax
+LATER = "c3e34bd"  # the version that changed Minimax
 OF_LATER = f"""### The maximum, since {LATER}
 
 Of maps with the same maximum `solve_by_ladder` takes about the one with least squares since then. Rows of Minimax
