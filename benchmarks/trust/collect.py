@@ -27,7 +27,8 @@ from gmds import match
 from gmds.benchmarking.run import turned
 from gmds.correspondence import Correspondence
 from gmds.evaluation import geodesic_error, protocol_subset
-from gmds.matching import rating
+from gmds.matching import pipeline, rating
+from gmds.matching.attempts import with_candidate
 from gmds.matching.candidates import MapCandidate
 from gmds.matching.rivals import Rivals
 from gmds.matching.signs import Signs, signs_of
@@ -58,7 +59,10 @@ def main() -> None:
 
 
 def collected(case: Case) -> dict[str, Any]:
-    """The signs (p, k) of judged vertices, their true errors (p,), whether they are `valid`, and what is told."""
+    """The signs (p, k) of judged vertices, their true errors (p,), whether they are `valid`, and what is told.
+
+    What rivals, and an image of the target that fits far better, leave of confidence is `undisputed` (p,).
+    """
     known, rng = case.load(), np.random.default_rng([0, *case.name.encode()])
     source, target = turned(known.source, rng), turned(known.target, rng)
     known = Known(source, target, known.vertices, type(known.truth)(target, known.truth.face, known.truth.barycentric))
@@ -68,8 +72,15 @@ def collected(case: Case) -> dict[str, Any]:
         seen.append((candidate, rivals, signs_of(candidate, rivals)))
         return seen[-1][-1]
 
+    believed = [1.0]
+
+    def beside(answer: Correspondence, *others: Any) -> Correspondence:
+        lowered = with_candidate(answer, *others)
+        believed.append(float(lowered.confidence.max() / answer.confidence.max()))
+        return lowered
+
     started = time.process_time()
-    with mock.patch.object(rating, "signs_of", observed):
+    with mock.patch.object(rating, "signs_of", observed), mock.patch.object(pipeline, "with_candidate", beside):
         answer = match(source, target, **case.options)
     seconds = time.process_time() - started
     chosen = (
@@ -83,7 +94,7 @@ def collected(case: Case) -> dict[str, Any]:
         "half": case.half,
         "status": answer.status.name,
         "names": list(signs),
-        "undisputed": rivals.undisputed[rows],
+        "undisputed": rivals.undisputed[rows] * believed[-1],
         "signs": np.stack([values[rows] for values in signs.values()], axis=1),
         "error": geodesic_error(answer, known.truth[chosen], vertices),
         "valid": answer.valid[vertices],
