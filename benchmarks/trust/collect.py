@@ -72,11 +72,14 @@ def collected(case: Case) -> dict[str, Any]:
         seen.append((candidate, rivals, signs_of(candidate, rivals)))
         return seen[-1][-1]
 
-    believed = [1.0]
+    believed = 1.0
 
     def beside(answer: Correspondence, *others: Any) -> Correspondence:
+        nonlocal believed
+        signs = seen[-1]
         lowered = with_candidate(answer, *others)
-        believed.append(float(lowered.confidence.max() / answer.confidence.max()))
+        believed = float(lowered.confidence.max() / answer.confidence.max())
+        seen.append(signs)  # of the answer again, as the last are those of the other image
         return lowered
 
     started = time.process_time()
@@ -94,7 +97,7 @@ def collected(case: Case) -> dict[str, Any]:
         "half": case.half,
         "status": answer.status.name,
         "names": list(signs),
-        "undisputed": rivals.undisputed[rows] * believed[-1],
+        "undisputed": rivals.undisputed[rows] * believed,
         "signs": np.stack([values[rows] for values in signs.values()], axis=1),
         "error": geodesic_error(answer, known.truth[chosen], vertices),
         "valid": answer.valid[vertices],
