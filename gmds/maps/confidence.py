@@ -19,7 +19,7 @@ from geodesics.arrays import Bools, Floats
 RADIUS = 0.05  # root areas of the target: the distance at which the protocol stops calling a point well matched
 # Radii in root areas, and the logarithm of what odds change by from `RADIUS` to them: fitted (`benchmarks.trust.fit`).
 RADII = (0.02, 0.03, 0.05, 0.08, 0.1, 0.15, 0.2, 0.3)
-LOG_ODDS = (-2.07, -1.08, 0.0, 0.99, 1.41, 1.94, 2.34, 2.8)
+LOG_ODDS = (-2.05, -1.06, 0.0, 1.03, 1.44, 2.0, 2.41, 2.88)
 MOST_LOG_ODDS = 700.0  # beyond which the exponential of a double is 0 or infinite: a bound
 
 
