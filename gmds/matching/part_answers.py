@@ -151,7 +151,7 @@ def part_answer(candidates: Sequence[PartCandidate], part: Part, meta: Mapping[s
         **meta,
         "part": part,
         "evidence": evidence,
-        "solver": best.candidate.solution.status.name,
+        **best.candidate.solution.as_meta(),
         "versions": versions(),
     }
     answer = replace(forward.inverse(), valid=forward.covered) if part == "target" else forward

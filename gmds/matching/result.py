@@ -57,7 +57,7 @@ def correspondence_of(placed: Sequence[MapCandidate], meta: Mapping[str, Any]) -
         distortion=distortion_of(best),
         status=status_of(expected, rivals.margin, badly_kept=_badly_kept(best)),
         candidates=candidates,
-        meta={**meta, "evidence": evidence, "solver": best.solution.status.name, "versions": versions()},
+        meta={**meta, "evidence": evidence, **best.solution.as_meta(), "versions": versions()},
         confidence=confidence,
     )
 

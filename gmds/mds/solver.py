@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -66,6 +67,10 @@ class Solution:
     def __repr__(self) -> str:
         words = f"{len(self.points)} points, stress {self.stress:.4g}, certificate {self.certificate:.2g}"
         return f"Solution({words}, {self.status.name} after {self.iterations})"
+
+    def as_meta(self) -> dict[str, Any]:
+        """What `Correspondence.meta` says of it: why the `solver` ended, and its `certificate`, None for inf."""
+        return {"solver": self.status.name, "certificate": self.certificate if np.isfinite(self.certificate) else None}
 
 
 def solve(

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -69,6 +71,14 @@ def test_a_rough_map_is_improved_by_every_loss_in_every_distance(distance: Calla
     after = gmds.geodesic_error(SurfacePoints(target, other.face_index[points.face], points.barycentric), true).mean()
     assert after < 0.5 * before
     assert len(solution.points) == 100 and np.isfinite(solution.stress)
+
+
+def test_a_map_by_minimax_tells_its_certificate(tmp_path: Path) -> None:
+    """As `Solution.certificate` says: hardly any share of the maximum could still be saved; and files keep it."""
+    answer = gmds.match(animal(), animal("walk", seed=1), distance=invariant, loss=Minimax(), n_samples=40)
+    assert answer.meta["solver"] == "CONVERGED" and 0 <= answer.meta["certificate"] <= 0.01
+    answer.save(tmp_path / "map.npz")
+    assert json.loads(np.load(tmp_path / "map.npz")["meta"].tobytes())["certificate"] == answer.meta["certificate"]
 
 
 def test_far_pairs_weigh_less_whatever_the_unit() -> None:
