@@ -53,7 +53,7 @@ def content(
     known = [key for key in TOPS if any(key in one["values"] for one in maps)]
     given = landmarks_of(answer) if landmarks is None else landmarks
     return {
-        "surfaces": [_surface(one, name) for one, name in zip(drawn, names, strict=True)],
+        "surfaces": [_surface(*one) for one in zip((answer.source, answer.target), drawn, names, strict=True)],
         "modes": modes(known, errors),
         "maps": maps,
         "words": WORDS,
@@ -104,10 +104,10 @@ def _fields(one: PointMap, errors: Floats | None) -> dict[str, Floats]:
     return fields
 
 
-def _surface(drawn: Drawing, name: str) -> dict[str, Any]:
+def _surface(mesh: Mesh, drawn: Drawing, name: str) -> dict[str, Any]:
     faces, origin = small(drawn.faces), small(drawn.origin)
     turned = (drawn.axes * drawn.unit).ravel().tolist()
-    about = {"name": name, "axes": turned, "unit": drawn.unit}
+    about = {"name": name, "count": mesh.n_vertices, "axes": turned, "unit": drawn.unit}
     return {**about, "vertices": drawn.placed(drawn.vertices), "faces": faces, "origin": origin}
 
 

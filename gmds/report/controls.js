@@ -41,7 +41,8 @@ function point(page, scene, panel) {
     if (!waiting) requestAnimationFrame(() => { page.mark(under(waiting)); waiting = null; });
     waiting = event;
   });
-  scene.panel.addEventListener("pointerleave", () => page.mark(null));
+  // a finger leaves as soon as it is lifted: what it tapped is still to be read
+  scene.panel.addEventListener("pointerleave", (event) => { if (event.pointerType !== "touch") page.mark(null); });
   handle(scene, (event) => {
     const found = under(event, true);
     if (!(page.work && page.work.clicked(found)) && found) page.pin(found);
@@ -101,7 +102,7 @@ function choose(page) {
   listMaps(page);
   ["map", "fit", "fine"].forEach((id) => at(id).addEventListener("change", show));
   at("beside").addEventListener("change", () => showBeside(page));
-  document.querySelectorAll("input[name=mode]").forEach((input) => input.addEventListener("change", show));
+  document.querySelectorAll("input[name=mode]").forEach((input) => input.addEventListener("change", () => { page.wanted = null; show(); }));
   ["squares", "wireframe"].forEach((id) => at(id).addEventListener("change", () => { options(page); page.changed(); }));
   at("morph").addEventListener("input", () => { page.morph(); page.marks.draw(); page.changed(); });
   at("named").addEventListener("change", () => page.marks.draw());

@@ -5,7 +5,12 @@
 function goTo(page, side, number) {
   const vertex = page.data.surfaces[side].origin.indexOf(number);
   if (vertex >= 0) page.pin({ side, vertex });
-  else at("readout").textContent = `Vertex ${number} is not among the points that are drawn of ${page.data.surfaces[side].name}.`;
+  else at("readout").textContent = missing(page.data.surfaces[side], number);
+}
+
+function missing({ name, count }, number) {
+  if (number >= count) return `${name} has no vertex ${number}: they are numbered from 0 to ${count - 1}.`;
+  return `Vertex ${number} is not among the points that are drawn of ${name}.`;
 }
 
 // to what is worst: the largest value, or the lowest where low is bad

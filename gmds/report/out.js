@@ -66,21 +66,81 @@ function drawMarks(pen, scene, left) {
   pen.restore();
 }
 
-// both surfaces side by side, as they are shown, with what is marked
+const HEAD = 26, BAR = [140, 10]; // pixels of the page: a line of words, the bar of a scale
+
+// above each surface its name and the map that colours it, below all what the colours stand for
+function drawWords(pen, page, scenes, scale) {
+  const style = getComputedStyle(document.body);
+  const bottom = pen.canvas.height / scale - HEAD / 2;
+  pen.save();
+  pen.scale(scale, scale);
+  [pen.fillStyle, pen.textBaseline, pen.font] = [style.color, "middle", `14px ${style.fontFamily}`];
+  let left = 0;
+  scenes.forEach((scene) => {
+    const panel = page.scenes.indexOf(scene);
+    const maps = page.data.maps.length > 1 ? [`, ${page.map.name}`, "", `, ${page.beside ? page.beside.name : ""}`] : ["", "", ""];
+    pen.fillText(page.surfaces[panel].name + maps[panel], left + 8, HEAD / 2, scene.canvas.width / scale - 16);
+    left += scene.canvas.width / scale;
+  });
+  drawScale(pen, page, bottom);
+  pen.restore();
+}
+
+function drawScale(pen, page, middle) {
+  let left = 8;
+  const word = (text, color = pen.fillStyle) => {
+    const kept = pen.fillStyle;
+    pen.fillStyle = color;
+    pen.fillText(text, left, middle);
+    left += pen.measureText(text).width + 6;
+    pen.fillStyle = kept;
+  };
+  const { mode } = page;
+  if (mode.key === "match") return word(at("legend-match").firstChild.textContent.trim());
+  if (!mode.high) {
+    for (const one of at("legend-valid").childNodes) {
+      if (one.nodeType === Node.TEXT_NODE) word(one.textContent.trim());
+      else word("\u25a0", getComputedStyle(one).backgroundColor);
+    }
+    return;
+  }
+  word(mode.unit);
+  word(at("low").textContent);
+  const top = page.top(mode);
+  const kept = pen.fillStyle;
+  for (let x = 0; x < BAR[0]; x++) {
+    const share = (x + 0.5) / BAR[0];
+    pen.fillStyle = `rgb(${Array.from(page.ramp(top * (mode.signed ? 2 * share - 1 : share), mode))})`;
+    pen.fillRect(left + x, middle - BAR[1] / 2, 1.5, BAR[1]);
+  }
+  pen.fillStyle = kept;
+  left += BAR[0] + 6;
+  word(at("high").textContent);
+}
+
+// both surfaces side by side, as they are shown, with what is marked, and what the colours stand for
 async function viewPicture(page) {
   page.scenes.forEach((scene) => scene.drawNow());
-  const shown = page.scenes.map((scene) => scene.canvas);
+  const corner = ({ plot }) => plot.getBoundingClientRect();
+  const scenes = [...page.scenes].sort((a, b) => corner(a).left - corner(b).left || corner(a).top - corner(b).top);
+  const shown = scenes.map((scene) => scene.canvas);
   const picture = Object.assign(document.createElement("canvas"), {
     width: shown.reduce((sum, one) => sum + one.width, 0), height: Math.max(...shown.map((one) => one.height)) });
+  const scale = shown[0].width / shown[0].getBoundingClientRect().width;
+  picture.height += Math.ceil(2 * HEAD * scale);
   const pen = picture.getContext("2d");
   pen.fillStyle = getComputedStyle(document.querySelector(".panel")).backgroundColor;
   pen.fillRect(0, 0, picture.width, picture.height);
+  pen.save();
+  pen.translate(0, HEAD * scale);
   let left = 0;
-  for (const scene of page.scenes) {
+  for (const scene of scenes) {
     pen.drawImage(scene.canvas, left, 0);
     drawMarks(pen, scene, left);
     left += scene.canvas.width;
   }
+  pen.restore();
+  drawWords(pen, page, scenes, scale);
   return new Promise((done) => picture.toBlob(done, "image/png"));
 }
 
@@ -114,7 +174,7 @@ function restore(page, text) {
   CHECKS.forEach((id) => { at(id).checked = (state.get("on") || "").split(",").includes(id); });
   page.pins = (state.get("pins") || "").split(",").map((pin) => pin.split(".").map(Number))
     .filter(([side, vertex]) => page.data.surfaces[side] && vertex >= 0 && vertex < page.data.surfaces[side].origin.length)
-    .map(([side, vertex]) => ({ side, vertex }));
+    .slice(-MOST_PINS).map(([side, vertex]) => ({ side, vertex }));
   (state.get("look") || "").split(";").forEach((one, side) => {
     const c = one.split(",").map(Number);
     if (c.length !== 9 || !c.every(Number.isFinite) || !page.scenes[side]) return;

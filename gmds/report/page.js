@@ -75,12 +75,7 @@ class Page extends Telling {
   }
 
   show() {
-    for (const input of document.querySelectorAll("input[name=mode]")) {
-      const known = input.value === "match" || input.value in this.map.values;
-      input.disabled = !known;
-      input.parentElement.title = known ? "" : "Not known for this map";
-      if (!known && input.checked) document.querySelector("input[name=mode]").checked = true;
-    }
+    this.offerModes();
     this.tell();
     this.legend();
     this.paint();
@@ -159,7 +154,7 @@ class Page extends Telling {
     const { side, vertex } = point;
     const partner = this.partner(side, vertex);
     readout.setAttribute("aria-live", point.kept ? "polite" : "off"); // hovering would chatter
-    readout.textContent = this.told(point);
+    readout.textContent = this.told(point) + this.toldBeside(point);
     Object.assign(readout.dataset, { side, vertex: this.data.surfaces[side].origin[vertex], face: partner ? partner.face : "",
       weights: partner ? partner.weights.join(" ") : "" });
   }

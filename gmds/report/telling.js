@@ -2,6 +2,19 @@
 "use strict";
 
 class Telling {
+  // the colours that are known for this map; those that were chosen come back with the next map that has them
+  offerModes() {
+    const inputs = [...document.querySelectorAll("input[name=mode]")];
+    const chosen = this.wanted || this.mode.key;
+    for (const input of inputs) {
+      input.disabled = input.value !== "match" && !(input.value in this.map.values);
+      input.parentElement.title = input.disabled ? "Not known for this map" : "";
+    }
+    const wanted = inputs.find((input) => input.value === chosen);
+    (wanted.disabled ? inputs[0] : wanted).checked = true;
+    this.wanted = wanted.disabled ? chosen : null;
+  }
+
   legend() {
     const { map, mode } = this;
     at("help").textContent = mode.help;
@@ -32,6 +45,14 @@ class Telling {
     at("cards").replaceChildren(...told.cards.map(([value, name, word]) =>
       made("li", made("b", value), made("span", name, ...(word ? [about(this.data.words[word])] : [])))));
     at("facts").replaceChildren(...told.facts.map(([name, value]) => made("tr", made("th", name), made("td", value))));
+  }
+
+  // where the map beside it has the partner, which is the ring of the other colour
+  toldBeside({ side, vertex }) {
+    if (!this.beside) return "";
+    const partner = this.partner(side, vertex, this.beside);
+    const [here, there] = side === 0 ? ["goes to", "the other ring"] : ["comes from", "the ring in the middle"];
+    return ` With ${this.beside.name} it ${partner ? `${here} nearest vertex ${partner.vertex} (${there})` : "has no counterpart"}.`;
   }
 
   // as much room for these words as any map needs, so that nothing jumps when another is shown

@@ -373,6 +373,55 @@ def test_a_narrow_window_shows_one_surface_under_the_other(running: Any, file: P
     assert readout["y"] + readout["height"] <= 640, "what is told stays in view"
 
 
+def test_what_a_finger_tapped_is_told_until_the_next_tap(running: Any, file: Path) -> None:
+    """A finger leaves the surface as it is lifted, which is no reason to forget what it tapped."""
+    context = running.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True, offline=True)
+    page = context.new_page()
+    page.goto(file.as_uri())
+    page.wait_for_selector("body[data-ready]")
+    places = page.evaluate("""() => [30, 900].map((vertex) => {
+        const scene = gmdsPage.scenes[0], box = scene.plot.getBoundingClientRect();
+        const { x, y } = scene.place(scene.vertex(vertex));
+        return [box.left + x, box.top + y];
+    })""")
+    told = []
+    for x, y in places:
+        page.touchscreen.tap(x, y)
+        told.append(read_out(page).get("vertex"))
+        assert page.locator("#readout").inner_text().startswith(f"Vertex {told[-1]} of ")
+    assert told[0] != told[1]
+    context.close()
+
+
+def test_the_map_beside_it_is_told_of_as_well(page: Any) -> None:
+    page.select_option("#beside", index=2)
+    page.evaluate("gmdsPage.mark({ side: 0, vertex: 151 })")
+    partner = page.evaluate("gmdsPage.partner(0, 151, gmdsPage.beside).vertex")
+    name = page.locator("#beside option").nth(2).inner_text()
+    assert f"With {name} it goes to nearest vertex {partner}" in page.locator("#readout").inner_text()
+    page.select_option("#beside", index=0)
+    page.evaluate("gmdsPage.mark({ side: 0, vertex: 151 })")
+    assert "With " not in page.locator("#readout").inner_text()
+
+
+def test_colours_that_a_candidate_lacks_come_back_with_the_map_that_has_them(page: Any) -> None:
+    page.check("input[value=distortion]", force=True)
+    page.select_option("#map", index=1)
+    assert page.evaluate("gmdsPage.mode.key") == "match"
+    page.select_option("#map", index=0)
+    assert page.evaluate("gmdsPage.mode.key") == "distortion"
+    page.select_option("#map", index=1)
+    page.check("input[value=growth]", force=True)
+    page.select_option("#map", index=0)
+    assert page.evaluate("gmdsPage.mode.key") == "growth", "what was chosen last"
+
+
+def test_a_vertex_that_is_not_there_is_told_with_those_that_are(page: Any) -> None:
+    page.fill("#go-vertex", "99999")
+    page.press("#go-vertex", "Enter")
+    assert "has no vertex 99999: they are numbered from 0 to 1499." in page.locator("#readout").inner_text()
+
+
 def test_what_has_no_counterpart_on_the_target_is_grey(running: Any, tmp_path: Path) -> None:
     half = half_animal()
     answer = Correspondence.from_points(half.part, half.true)
@@ -534,6 +583,22 @@ def test_the_picture_of_the_page_has_all_panels(page: Any) -> None:
     )
 
 
+def test_the_picture_of_the_page_says_what_its_colours_stand_for(page: Any, file: Path) -> None:
+    """Every colour of the scale is in the lower line, and the names of the surfaces are above them."""
+    from io import BytesIO
+
+    from matplotlib.image import imread
+
+    page.check("input[value=distortion]", force=True)
+    with page.expect_download() as offered:
+        page.click("#save-view")
+    image = np.round(255 * imread(BytesIO(Path(offered.value.path()).read_bytes()))[..., :3]).astype(int)
+    ramp = np.asarray(page_data(file)["ramp"]).reshape(-1, 3)
+    lower, upper = image[-26:].reshape(-1, 3), image[:26].reshape(-1, 3)
+    there = [np.abs(lower - colour).sum(axis=1).min() <= 6 for colour in ramp[4:-4:8].astype(int)]
+    assert all(there) and len(np.unique(upper, axis=0)) > 10
+
+
 def test_the_picture_of_the_page_shows_what_is_marked(page: Any) -> None:
     """Pins are in it where they are on the page; so are axes and the scale, which are always there."""
     from io import BytesIO
@@ -554,13 +619,13 @@ def test_the_picture_of_the_page_shows_what_is_marked(page: Any) -> None:
         const scene = gmdsPage.scenes[side], partner = gmdsPage.partner(0, 151);
         const place = scene.place(side ? partner.position : scene.vertex(151));
         return [place.x * scene.canvas.width / scene.plot.clientWidth + side * gmdsPage.scenes[0].canvas.width,
-            place.y * scene.canvas.height / scene.plot.clientHeight];
+            (place.y + 26) * scene.canvas.height / scene.plot.clientHeight];
     })""")
     for side, (x, y) in enumerate(spots):
         mine = columns >= half if side else columns < half
         assert mine.any() and abs(columns[mine].mean() - x) < 4 and abs(rows[mine].mean() - y) < 4
         assert np.hypot(columns[mine] - x, rows[mine] - y).max() < 14
-    corner = before[-60:, 20:100]  # the axes, on the paper of the panel
+    corner = before[-86:-26, 20:100]  # above the line about the colours: the axes, on the paper of the panel
     assert len(np.unique((255 * corner).astype(int).reshape(-1, 3), axis=0)) > 10
 
 
