@@ -153,7 +153,8 @@ class _Run:
             name = shape_job.shape.name
             self.shapes[name] = ShapeRecord(name, failure=record) if isinstance(record, Failure) else record
             self.manifest.tell("shape", {"origin": shape_job.shape.place, **event(self.shapes[name])})
-            self.progress(f"measured {name}", MEASURING * len(self.shapes) / len(self.collection.shapes))
+            done = "measured" if self.shapes[name].failure is None else "cannot use"
+            self.progress(f"{done} {name}", MEASURING * len(self.shapes) / len(self.collection.shapes))
         for pair_job, found in outcomes(client, match_pair, self._missing()):
             names = pair_job.source.name, pair_job.target.name
             self._add(PairRecord(*names, "failed", failure=found) if isinstance(found, Failure) else found)

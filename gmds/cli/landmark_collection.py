@@ -31,6 +31,7 @@ def landmark_collection(folder: Path, template: Path, landmarks: Path, output: P
         raise click.UsageError(f"--slide is for points of curves, and {landmarks} holds no curve")
     asked = {"orientation": options["orientation"], "rng": options["seed"]}
     tell_inner_folders(folder, output)
+    _tell_new_names(folder)
     quiet()
     output.mkdir(parents=True, exist_ok=True)
     with progress_bar("landmarks", remaining=True) as shown:
@@ -54,6 +55,17 @@ def landmark_collection(folder: Path, template: Path, landmarks: Path, output: P
     emit(result, options["as_json"])
     if found.failures:
         raise click.exceptions.Exit(UNFINISHED)
+
+
+def _tell_new_names(folder: Path) -> None:
+    """What meshes are called in tables and pictures whose own names cannot stand in the name of a map."""
+    from gmds.batch.collection import names
+    from gmds.files.folders import mesh_files
+
+    paths = mesh_files(folder)
+    new = [(path.name, name) for path, name in zip(paths, names(paths), strict=True) if not path.name.startswith(name)]
+    if new:
+        note(f"called otherwise in the tables: {', '.join(f'{name} for {old!r}' for old, name in new)}")
 
 
 def _lines() -> Callable[[str, float], None]:

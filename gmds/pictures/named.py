@@ -41,36 +41,44 @@ def spots(shot: Shot, places: Floats) -> Floats:
     return shot.frame(OVERSAMPLING, places).xy / OVERSAMPLING
 
 
-def write_names(axis: Any, marks: Iterable[Mark], wide: float, size: float = 8) -> None:
-    """Write names into a view that is so wide, in letters of `size` points that stand out from what is under them."""
+def write_names(axis: Any, marks: Iterable[Mark], wide: float, size: float = 8, scale: float = 1.0) -> None:
+    """Write names into a view that is so wide, in letters of `size` points that stand out from what is under them.
+
+    `scale`: how much larger than usual letters are beside the view, as where the view is drawn smaller than they are.
+    """
     from matplotlib.patheffects import withStroke
 
     halo = [withStroke(linewidth=HALO, foreground="white")]
     taken: list[Box] = []
     for mark in marks:
-        left, box = free_place(mark, wide, taken)
+        left, box = free_place(mark, wide, taken, scale)
         taken.append(box)
         at, side = (box[2], "right") if left else (box[0], "left")
         look = {"fontsize": size, "color": mark.ink, "parse_math": False, "path_effects": halo}
         axis.text(at, box[3], mark.name, ha=side, **look)
 
 
-def free_place(mark: Mark, wide: float, taken: Sequence[Box]) -> tuple[bool, Box]:
+def free_place(mark: Mark, wide: float, taken: Sequence[Box], scale: float = 1.0) -> tuple[bool, Box]:
     """Whether a name stands left of its point, and where: above it, on the outer side, unless another name is there.
 
-    Then it stands below, or on the other side, or as much higher or lower as it takes, up to four lines.
+    Then it stands below, or on the other side, or as much higher or lower as it takes, up to four lines, and within the
+    view where it can.
     """
-    outer, long = leftwards(mark.x, mark.name, wide), len(mark.name) * LETTER
+    outer, long, high = leftwards(mark.x, mark.name, wide), len(mark.name) * LETTER * scale, HIGH * scale
     tried: list[tuple[bool, Box]] = []
     for line in range(4):
         for below, left in ((False, outer), (True, outer), (False, not outer), (True, not outer)):
-            foot = mark.y + AWAY + (line + 1) * HIGH if below else mark.y - AWAY - line * HIGH
+            foot = mark.y + AWAY + (line + 1) * high if below else mark.y - AWAY - line * high
             start = mark.x - AWAY - long if left else mark.x + AWAY
-            box = (start, foot - HIGH, start + long, foot)
-            if not any(_meet(box, other) for other in taken):
+            box = (start, foot - high, start + long, foot)
+            if _within(box, wide) and not any(_meet(box, other) for other in taken):
                 return left, box
             tried.append((left, box))
-    return tried[0]
+    return next((one for one in tried if _within(one[1], wide)), tried[0])
+
+
+def _within(box: Box, wide: float) -> bool:
+    return box[0] >= 0 and box[2] <= wide
 
 
 def _meet(one: Box, other: Box) -> bool:

@@ -84,7 +84,8 @@ def _save(path: Path, specimens: Sequence[tuple[Specimen, list[View]]], names: S
             axis.set_axis_off()
             inks = [DOUBTFUL if doubtful else "black" for doubtful in one.doubtful]
             marks = [Mark(names[i], places[i, 0], places[i, 1], inks[i]) for i in np.flatnonzero(there).tolist()]
-            write_names(axis, marks, wide, 8 * max(share, 0.6))
+            letters = max(share, 0.6)  # or they could not be read
+            write_names(axis, marks, wide, 8 * letters, letters / share)
             left += wide / width / across
         middle = (number % across + 0.5) / across
         figure.text(middle, top - 4 / height / down, one.name, ha="center", va="top", parse_math=False)

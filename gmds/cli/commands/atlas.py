@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from gmds.atlases.registered import Atlas
 
 PATH = click.Path(path_type=Path)
-UNITS = 8.0  # a little below 10, by which neighbouring units of length differ
 
 
 @click.command(cls=Command, short_help="Bring a folder of meshes to one triangulation.")
@@ -102,6 +101,8 @@ def command(folder: Path, output: Path, as_json: bool, **options: Any) -> None:
 def _other_units(made: Atlas) -> dict[str, float]:
     """Specimens whose size differs from the median as sizes of one kind seldom do, and units always: by how much."""
     import numpy as np
+
+    from gmds.specimens.tables import UNITS
 
     sizes = made.superposition.sizes / np.median(made.superposition.sizes)
     return {n: float(x) for n, x in zip(made.names, sizes, strict=True) if abs(np.log10(x)) >= np.log10(UNITS)}

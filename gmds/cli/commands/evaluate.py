@@ -8,7 +8,7 @@ from typing import Any
 import click
 
 from gmds.cli.group import Command
-from gmds.cli.output import emit, json_option
+from gmds.cli.output import emit, json_option, note
 from gmds.cli.view_options import view_options, write_views
 
 FILE = click.Path(path_type=Path)
@@ -70,6 +70,8 @@ def command(
             continue
         indices, true = found
         chosen = protocol_subset(len(indices), points)
+        if name == "direct" and len(chosen) < len(indices):
+            note(f"judged at {len(chosen)} of {len(indices)} points; --points {len(indices)} judges at all")
         errors = geodesic_error(answer, true[chosen], indices[chosen])
         result[name] = asdict(summary(errors))
         if name == "direct":

@@ -306,6 +306,16 @@ def test_names_do_not_stand_on_each_other() -> None:
             assert one[2] <= other[0] or other[2] <= one[0] or one[3] <= other[1] or other[3] <= one[1]
 
 
+def test_names_stand_within_the_view_also_where_letters_are_large() -> None:
+    """On a sheet letters are larger beside the view: of a crowd at its edge each name is whole, in its own place."""
+    taken: list[Box] = []
+    for k in range(6):
+        taken.append(free_place(Mark(f"LM {k}", 560 - 9 * k, 100 + 3 * k), 560, taken, 1.2)[1])
+    for i, one in enumerate(taken):
+        assert one[0] >= 0 and one[2] <= 560 and one[2] - one[0] == pytest.approx(4 * LETTER * 1.2)
+        assert all(a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] or b[3] <= a[1] for a in taken[:i] for b in [one])
+
+
 def test_marked_vertices_get_a_ball_where_they_can_be_seen(tmp_path: Path) -> None:
     sphere = icosphere(3)
     shots: list[Shot] = []

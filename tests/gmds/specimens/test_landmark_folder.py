@@ -110,6 +110,21 @@ def test_what_needs_a_look_is_told_and_everything_is_drawn(done: Done) -> None:
     assert all(path.stat().st_size > 10_000 for path in [*pictures, done[0] / "sheet.png"])
 
 
+def test_other_units_and_other_names_are_told(done: Done, tmp_path: Path) -> None:
+    """A specimen in micrometres among millimetres is listed; so is what a file is called whose name cannot stay."""
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    mesh = quadruped(n_vertices=300)
+    for name, scale in (("template", 1.0), ("second", 1.1), ("third (scan #2)", 1000.0)):
+        write_mesh(Mesh(scale * mesh.vertices, mesh.faces), folder / f"{name}.ply")
+    (folder / "template.csv").write_text("name,vertex\na,3\nb,100\nc,200\nd,290\n")
+    told = gmds_landmarks(folder, tmp_path / "out")
+    assert told.exit_code == 0, told.output
+    assert "third_scan_2 for 'third (scan #2).ply'" in told.stderr and "second for" not in told.stderr
+    reasons = [row["why"] for row in rows(tmp_path / "out" / "to_look_at.csv") if row["specimen"] == "third_scan_2"]
+    assert any("times as large as the median: in other units?" in why for why in reasons)
+
+
 def test_it_goes_on_where_it_was_and_makes_nothing_again(done: Done) -> None:
     maps = {path.name: path.stat().st_mtime_ns for path in (done[0] / "maps" / "pairs").iterdir()}
     before = (done[0] / "landmarks.csv").read_bytes()
