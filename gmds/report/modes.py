@@ -29,7 +29,7 @@ LOOK = {
     "growth": " Orange became longer than the whole did, blue shorter; white grew as the whole did.",
     "error": " Dark blue is right, yellow is wrong.",
 }
-SPARSE = " It was judged at {} points, drawn as dots; elsewhere the error is not known, and the surface is grey."
+SPARSE = " The error is known at {} points, drawn as dots; elsewhere it is not, and the surface is grey."
 AXES = {
     "confidence": "confidence",
     "distortion": "distortion",
