@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 import geodesics
 import gmds
@@ -48,6 +49,7 @@ def stress(path: Path, found: dict[str, Any]) -> None:
     left, right = figure.subplots(1, 2)
     left.semilogy(range(1, 17), found["stress"], color=BLUE, label="stress")
     left.set_xlabel("step")
+    left.xaxis.set_major_locator(MaxNLocator(integer=True))
     left.set_ylabel("stress", color=BLUE)
     other = left.twinx()
     other.plot(range(1, 17), found["error"], color=RED)
