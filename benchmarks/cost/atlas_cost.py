@@ -31,6 +31,7 @@ import numpy as np
 
 from benchmarks.accuracy.runs import code_version
 from benchmarks.markdown import table
+from benchmarks.memory import peak_megabytes
 from benchmarks.places import RESULTS
 from geodesics import write_mesh
 from gmds.shapes import Figure, quadruped
@@ -71,7 +72,7 @@ def child(meshes: Path, count: int, out: Path) -> None:
     write_atlas(made, out)
     own, others = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
     cpu = sum(usage.ru_utime + usage.ru_stime for usage in (own, others))
-    print(json.dumps({"cpu": cpu, "own": own.ru_utime + own.ru_stime, "memory": own.ru_maxrss / 1024}))
+    print(json.dumps({"cpu": cpu, "own": own.ru_utime + own.ru_stime, "memory": peak_megabytes()}))
 
 
 def command(meshes: Path, count: int, out: Path) -> list[str]:

@@ -12,7 +12,6 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import resource
 import subprocess
 import sys
 import time
@@ -24,6 +23,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 import gmds
+from benchmarks.memory import peak_megabytes
 from benchmarks.places import RESULTS
 from geodesics import Mesh, SurfacePoints, read_mesh
 from geodesics.threads import threads
@@ -62,7 +62,7 @@ def measured(size: str) -> dict[str, Any]:
     cpu, wall = time.process_time(), time.perf_counter()
     answer = gmds.match(source, target, progress=lambda stage, _: stages.setdefault(stage, time.perf_counter() - wall))
     seconds = time.process_time() - cpu, time.perf_counter() - wall
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20
+    peak = peak_megabytes() / 1024
     some = np.random.default_rng(0).choice(len(indices), min(JUDGED, len(indices)), replace=False)
     error = 100 * gmds.geodesic_error(answer.points[indices[some]], truth[some]).mean()
     return {

@@ -8,13 +8,13 @@ Says on a progress line what it is at. Writes CPU seconds and the peak of memory
 from __future__ import annotations
 
 import argparse
-import resource
 import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from benchmarks.memory import peak_megabytes
 from benchmarks.places import RESULTS
 from benchmarks.scale.meshes import SIZES, load, mesh_path
 from geodesics import GeodesicDistance, SurfacePoints, eigenpairs, embedded, read_mesh, scale_invariant, write_mesh
@@ -46,7 +46,7 @@ def main() -> None:
             progress(name, fraction)
             start = time.process_time()
             result = action()
-            peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20
+            peak = peak_megabytes() / 1024
             rows.append(f"| {name} | {time.process_time() - start:.1f} | {peak:.2f} |")
             return result
 

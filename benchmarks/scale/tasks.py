@@ -6,7 +6,6 @@ Times are CPU seconds after a warm-up on a small mesh; `wall` where two threads 
 from __future__ import annotations
 
 import json
-import resource
 import statistics
 import sys
 import time
@@ -20,6 +19,7 @@ import scipy.sparse.linalg as sla
 
 import geodesics
 import gmds
+from benchmarks.memory import peak_megabytes
 from benchmarks.scale.meshes import load
 from geodesics import GeodesicDistance, Mesh, SurfacePoints
 from geodesics.sampling import farthest_point_cells
@@ -183,7 +183,7 @@ def main() -> None:
     name, path = sys.argv[1:]
     TASKS[name](quadruped(n_vertices=1600))
     result = TASKS[name](load(Path(path)))
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    peak = peak_megabytes()
     print(json.dumps({key: float(value) for key, value in {**result, "peak": peak}.items()}))
 
 
