@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy.sparse as sp
 from scipy.optimize import linear_sum_assignment
 
 from geodesics import Mesh
 from geodesics.arrays import Floats, Integers
 from geodesics.caching import memoized
-from geodesics.topology.edges import edges
+from geodesics.topology.components import vertex_components
+from gmds.deformations.limbs import edge_distances
 from gmds.pictures.colours import oklab_to_rgb, position_oklab
 
 # OKLab of tips. Any two are 30 apart in CIEDE2000, 19 to eyes without green or red (Machado, Oliveira, Fernandes 2009),
@@ -57,14 +57,13 @@ def extremities(mesh: Mesh) -> tuple[Integers, Floats]:
 
     Distances are along edges, infinite on other components; tips are those of the component with the most vertices.
     """
-    graph = _edge_lengths(mesh)
-    component = sp.csgraph.connected_components(graph, directed=False)[1]
-    inside = component == np.bincount(component).argmax()
-    nearest = np.where(inside, _from_vertex(graph, int(inside.argmax())), -1)
+    component = vertex_components(mesh)
+    inside = component == np.bincount(component[component >= 0]).argmax()
+    nearest = np.where(inside, edge_distances(mesh, inside.argmax())[0], -1)
     points, rows = np.zeros(SPREAD, dtype=np.int64), []
     for k in range(SPREAD):
         points[k] = nearest.argmax()
-        rows.append(_from_vertex(graph, points[k]))
+        rows.append(edge_distances(mesh, points[k])[0])
         nearest = np.minimum(nearest, rows[-1]) if k else np.where(inside, rows[0], -1)
     distances = np.array(rows)
     far = distances.mean(axis=0)
@@ -72,13 +71,3 @@ def extremities(mesh: Mesh) -> tuple[Integers, Floats]:
     tips = [i for i, point in enumerate(points) if far[point] >= SLACK * far[distances[i] <= reach].max()]
     kept = [i for k, i in enumerate(tips) if points[i] not in points[tips[:k]]][: len(TIPS)]
     return points[kept], distances[kept]
-
-
-def _edge_lengths(mesh: Mesh) -> sp.csr_matrix:
-    a, b = edges(mesh).ends.T
-    lengths = np.linalg.norm(mesh.vertices[a] - mesh.vertices[b], axis=1)
-    return sp.coo_matrix((lengths, (a, b)), shape=(mesh.n_vertices, mesh.n_vertices)).tocsr()
-
-
-def _from_vertex(graph: sp.csr_matrix, vertex: int) -> Floats:
-    return np.asarray(sp.csgraph.dijkstra(graph, directed=False, indices=vertex))

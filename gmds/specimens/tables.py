@@ -14,8 +14,8 @@ from gmds.files.table import write_table
 from gmds.maps.point_map import MatchStatus
 from gmds.morphometrics.procrustes import Superposition, superimposed
 from gmds.specimens.carried import DOUBTFUL, Landmarked
+from gmds.specimens.units import in_other_units
 
-UNITS = 8.0  # a little below 10, by which neighbouring units of length differ
 FAR = 3.0  # times the median distance from the mean shape beyond which a specimen needs a look; set by hand
 NOWHERE = ("NA", "NA", "NA")  # a place, as R reads one that is missing
 
@@ -48,7 +48,9 @@ def write_tables(folder: Path, found: Landmarked) -> list[tuple[str, str]]:
         write_table(folder / "shapes_wide.csv", head, rows)
     else:
         to_look_at.append(("all", f"no superposition: {why}"))
-    to_look_at += _other_units(found)
+    root_areas = np.sqrt([one.mesh.area for one in found.specimens])
+    for name, times in in_other_units([one.name for one in found.specimens], root_areas).items():
+        to_look_at.append((name, f"{times:.3g} times as large as the median: in other units?"))
     to_look_at += _reasons(found, np.full(len(places), np.nan) if laid is None else laid.distances)
     write_table(folder / "to_look_at.csv", ["specimen", "why"], to_look_at)
     return to_look_at
@@ -84,14 +86,6 @@ def _tps(found: Landmarked, places: Floats) -> str:
         rows = [" ".join(map(repr, at.tolist()) if np.isfinite(at).all() else NOWHERE) for at in configuration]
         blocks.append("\n".join([f"LM3={len(rows)}", *rows, f"ID={one.name}", ""]))
     return "\n".join(blocks)
-
-
-def _other_units(found: Landmarked) -> Iterator[tuple[str, str]]:
-    """Whose size differs from the median, by root areas, as sizes of one kind seldom do, and units always."""
-    sizes = np.sqrt([one.mesh.area for one in found.specimens])
-    for one, times in zip(found.specimens, sizes / np.median(sizes), strict=True):
-        if abs(np.log10(times)) >= np.log10(UNITS):
-            yield one.name, f"{times:.3g} times as large as the median: in other units?"
 
 
 def _reasons(found: Landmarked, distance: Floats) -> Iterator[tuple[str, str]]:

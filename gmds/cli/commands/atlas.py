@@ -77,6 +77,7 @@ def command(folder: Path, output: Path, as_json: bool, **options: Any) -> None:
     from gmds.atlases.build import atlas
     from gmds.atlases.output import write_atlas
     from gmds.batch import local_client, quiet, remote_client
+    from gmds.specimens.units import in_other_units
 
     refuse_same_folder(folder, output, "the meshes")
     tell_inner_folders(folder, output)
@@ -91,21 +92,11 @@ def command(folder: Path, output: Path, as_json: bool, **options: Any) -> None:
     write_atlas(made, output)
     for name, why in made.failures.items():
         note(f"gmds: left out {name}: {why.code}: {why.reason}")
-    for name, times in _other_units(made).items():
+    for name, times in in_other_units(made.names, made.superposition.sizes).items():
         note(f"gmds: {name} is {times:.3g} times as large as the median: in other units? Shape and growth do not mind")
     emit(_told(made, output), as_json)
     if made.failures:
         raise click.exceptions.Exit(UNFINISHED)
-
-
-def _other_units(made: Atlas) -> dict[str, float]:
-    """Specimens whose size differs from the median as sizes of one kind seldom do, and units always: by how much."""
-    import numpy as np
-
-    from gmds.specimens.tables import UNITS
-
-    sizes = made.superposition.sizes / np.median(made.superposition.sizes)
-    return {n: float(x) for n, x in zip(made.names, sizes, strict=True) if abs(np.log10(x)) >= np.log10(UNITS)}
 
 
 def _told(made: Atlas, output: Path) -> dict[str, Any]:
