@@ -25,6 +25,7 @@ from geodesics import SurfacePoints, read_mesh
 from gmds.benchmarking.pairs import Pair
 from gmds.files.table import write_table
 from gmds.matching.given_distances import relative_weights
+from gmds.mds.pair_distances import pairwise
 from gmds.mds.problem import Problem
 from gmds.surface.measured import measure
 
@@ -64,7 +65,7 @@ def stresses(pair: Pair, folder: Path) -> Iterator[tuple[str, float, float]]:
         true = truth[at]
         true = SurfacePoints(target.mesh, back[true.face], true.barycentric)
         here = SurfacePoints.at_vertices(source.mesh, shared)
-        problem = Problem(ours, here, theirs, weights=relative_weights(ours, here))
+        problem = Problem(ours, here, theirs, weights=relative_weights(pairwise(ours, here).distances()))
         answer, right = (float(np.sqrt(np.mean(problem.at(points).residuals ** 2))) for points in (found, true))
         yield cell, answer, right
 

@@ -16,6 +16,7 @@ from gmds.matching.pair import SurfacePair
 from gmds.matching.proposals import FEWEST_DECIDED, Proposal
 from gmds.mds.ladder import solve_by_ladder
 from gmds.mds.losses import Loss
+from gmds.mds.many_samples import pairs_asked
 from gmds.mds.problem import Problem
 from gmds.mds.solver import Solution
 from gmds.registration.in_space import HARDLY_BENT, bent
@@ -168,9 +169,8 @@ def placed(
     """The map `images` (n,) after generalised multidimensional scaling of `count` samples, extended to every vertex."""
     source, target = views
     samples = source.samples(count)
-    problem = Problem(distances[0], SurfacePoints.at_vertices(pair.source.mesh, samples), distances[1])
-    start = SurfacePoints.at_vertices(pair.target.mesh, images[samples])
-    solution = solve_by_ladder(problem, start, loss, max_iterations=ITERATIONS)
+    problem = Problem(distances[0], samples, distances[1], pairs=pairs_asked(len(samples)))
+    solution = solve_by_ladder(problem, images[samples], loss, max_iterations=ITERATIONS)
     with_landmarks = pair.with_landmarks(samples, solution.points)
     return extend(source, target, *with_landmarks, common_functions(source, target)), solution
 

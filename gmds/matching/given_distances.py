@@ -12,6 +12,7 @@ from geodesics.arrays import Floats, Integers
 from gmds.matching.pair import SurfacePair
 from gmds.mds.ladder import rungs_below, solve_by_ladder
 from gmds.mds.losses import LeastSquares, Loss
+from gmds.mds.many_samples import pairs_asked
 from gmds.mds.pair_distances import pairwise
 from gmds.mds.problem import Problem
 from gmds.mds.solver import Solution
@@ -77,10 +78,14 @@ def placed_in_given(
     points = SurfacePoints.at_vertices(pair.target.mesh, images)
     samples = _interleaved(given.views[0].samples(count), pair.source.regular.samples(count))
     here = SurfacePoints.at_vertices(pair.source.mesh, samples)
-    shares = Problem(given.distances[0], here, given.distances[1], weights=relative_weights(given.distances[0], here))
+    few = pairs_asked(len(here))
+    near = relative_weights(pairwise(given.distances[0], here).distances()) if few is None else relative_weights
+    plain, shares = (
+        Problem(given.distances[0], here, given.distances[1], weights=weights, pairs=few) for weights in (None, near)
+    )
     for time in range(TIMES):
         now = LeastSquares() if rungs_below(loss) and time < TIMES - 1 else loss
-        problem = Problem(given.distances[0], here, given.distances[1]) if rungs_below(now) else shares
+        problem = plain if rungs_below(now) else shares
         solution = solve_by_ladder(problem, points[samples], now, max_iterations=ITERATIONS)
         placed = pair.with_landmarks(samples, solution.points)
         points = pair.refiner.continued(*placed, points)
@@ -93,9 +98,8 @@ def placed_in_given(
     return points, solution
 
 
-def relative_weights(distance: Distance, points: SurfacePoints) -> Floats:
-    """Weights (p, p) of pairs with which it is shares of distances that count, but of the shortest."""
-    distances = pairwise(distance, points).distances()
+def relative_weights(distances: Floats) -> Floats:
+    """Weights of pairs at these distances with which it is shares of distances that count, but of the shortest."""
     shortest = NEAR * distances[np.isfinite(distances)].mean()
     return np.asarray((distances + shortest) ** -2.0, dtype=np.float64)
 

@@ -72,7 +72,8 @@ def match(  # noqa: PLR0913 - the signature is a promise
     loss : Loss, optional
         How the residuals of the embedding add up; least squares unless given. `Minimax` is reached through powers.
     n_samples : int, optional
-        Farthest points that are placed, from 3 to the number of vertices; 300 unless given.
+        Farthest points that are placed, from 3 to the number of vertices; 300 unless given. Of more than 1,000,
+        the pairs with the first 250 count, so that memory grows with their number.
     landmarks : array_like, pair or SoftLandmarks, optional
         Corresponding points in a form of `gmds.landmarks.check_landmarks`: those at vertices are met exactly, those
         inside a face to within the size of faces; `SoftLandmarks` pull, as far as they can be right.

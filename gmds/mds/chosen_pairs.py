@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import ArrayLike
 
+from geodesics.arguments import is_whole
 from geodesics.arrays import Floats, Integers
 from geodesics.errors import BadArgument
 from gmds.mds.pair_distances import EmbeddedPairs, Pairs
+
+Weights = ArrayLike | Callable[[Floats], Floats] | None
+"""Of the samples, of the pairs of samples, or a function of the distances of the pairs; none: all are 1."""
 
 
 def lengths_of(pairs: Pairs, first: Integers, second: Integers) -> Floats:
@@ -17,8 +23,10 @@ def lengths_of(pairs: Pairs, first: Integers, second: Integers) -> Floats:
     return pairs.distances()[first, second]
 
 
-def chosen_pairs(pairs: ArrayLike | None, count: int) -> tuple[Integers, Integers]:
-    """Index arrays i < j: all pairs, or those asked for."""
+def chosen_pairs(pairs: ArrayLike | int | None, count: int) -> tuple[Integers, Integers]:
+    """Index arrays i < j: all pairs, those that one of the first `pairs` samples belongs to, or those asked for."""
+    if isinstance(pairs, int | np.integer) and is_whole(pairs):
+        return _pairs_of_the_first(int(pairs), count)
     if pairs is None:
         first, second = np.triu_indices(count, 1)
         return first.astype(np.int64), second.astype(np.int64)
@@ -31,14 +39,34 @@ def chosen_pairs(pairs: ArrayLike | None, count: int) -> tuple[Integers, Integer
     return np.ascontiguousarray(chosen[:, 0]), np.ascontiguousarray(chosen[:, 1])
 
 
-def pair_weights(weights: ArrayLike | None, first: Integers, second: Integers, count: int) -> Floats:
+def _pairs_of_the_first(heads: int, count: int) -> tuple[Integers, Integers]:
+    """Index arrays i < j with i < heads, in the order of i; nothing of count x count is made."""
+    if heads < 1:
+        raise BadArgument(f"pairs must be those of 1 of the first samples at least, not of {heads}")
+    many = count - 1 - np.arange(min(heads, count - 1), dtype=np.int64)
+    first = np.repeat(np.arange(len(many), dtype=np.int64), many)
+    return first, np.arange(len(first), dtype=np.int64) - np.repeat(np.cumsum(many) - many, many) + first + 1
+
+
+def pair_weights(weights: Weights, first: Integers, second: Integers, lengths: Floats, count: int) -> Floats:
     """w_ij of each pair, scaled to mean 1."""
     if weights is None:
         return np.ones(len(first))
-    w = np.asarray(weights, dtype=np.float64)
-    if w.shape not in ((count,), (count, count)):
-        raise BadArgument(f"weights must have shape ({count},) or ({count}, {count}), not {w.shape}")
-    pair = w[first] * w[second] if w.ndim == 1 else 0.5 * (w[first, second] + w[second, first])
+    if callable(weights):
+        pair = np.asarray(weights(lengths), dtype=np.float64)
+        if pair.shape != lengths.shape:
+            raise BadArgument(f"weights of {len(lengths)} distances must have as many entries, not {pair.shape}")
+    else:
+        pair = _tabulated_weights(np.asarray(weights, dtype=np.float64), first, second, count)
     if not np.isfinite(pair).all() or (pair < 0).any() or not pair.any():
         raise BadArgument("weights must be finite, not negative, and not all zero")
     return pair / pair.mean()
+
+
+def _tabulated_weights(weights: Floats, first: Integers, second: Integers, count: int) -> Floats:
+    """w_ij (r,) from weights of the samples (p,) or of their pairs (p, p)."""
+    if weights.shape not in ((count,), (count, count)):
+        raise BadArgument(f"weights must have shape ({count},) or ({count}, {count}), not {weights.shape}")
+    if weights.ndim == 1:
+        return np.asarray(weights[first] * weights[second], dtype=np.float64)
+    return np.asarray(0.5 * (weights[first, second] + weights[second, first]), dtype=np.float64)

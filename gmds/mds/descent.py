@@ -59,8 +59,10 @@ def descend(
     here, stress, radius = state.here, state.stress, state.radius
     negligible = loss.value(np.full_like(here.residuals, 1e-10))
     quiet: list[float] = []
+    jacobian: Jacobian | None = None  # of `here`; let go before the next is made
     for iteration in range(state.iteration + 1, max_iterations + 1):
-        jacobian = here.walled_jacobian if walled else here.jacobian
+        if jacobian is None:
+            jacobian = here.walled_jacobian if walled else here.jacobian
         if stress <= negligible:
             return Descent(here, stress, radius, iteration, 0.0, Status.CONVERGED)
         step, predicted = _predicted(here, stress, jacobian, loss, radius)
@@ -73,13 +75,13 @@ def descend(
             if not walled or not turned.any() or len(quiet) >= SIDES:
                 flat = max(quiet) <= 10 * tolerance * stress
                 return Descent(here, stress, wide, iteration, max(quiet), Status.CONVERGED if flat else Status.STALLED)
-            here = here.problem.at(other)
+            here, jacobian = here.problem.at(other), None
             continue
         quiet = []
         there, ratio = _tried(here, stress, jacobian.displacement(step), predicted, loss, walled)
         radius = _resized(radius, ratio)
         if ratio > 0:
-            here, stress = there, loss.value(there.residuals)
+            here, stress, jacobian = there, loss.value(there.residuals), None
         if radius <= (SHORTEST if walled else FREE):
             return Descent(here, stress, radius, iteration, predicted, Status.STALLED)
         report(iteration)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from geodesics import SurfacePoints
 from geodesics.points import joined, mixed
-from gmds.mds.losses import Loss
+from gmds.mds.losses import Loss, as_loss
 from gmds.mds.problem import Problem
 from gmds.mds.prolongation import prolonged
 from gmds.mds.solver import Solution, solve
@@ -16,9 +18,13 @@ MANY = 1000
 HEADS = 250
 """Samples that are placed together; chosen there: what the others are placed by, at two coordinates each."""
 STEPS = 8
-"""Of all samples with pairs to the first alone; a bound, as what is left is seen to by the last steps."""
-LAST_STEPS = 2
-"""Of all pairs, at the most: a bound; the first lowers the stress by what pairs to the first samples leave."""
+"""Of all samples, twice, first in haste: a bound; after it the stress of all pairs is where two steps of all pairs
+took it, in the same time (benchmarks/results/solver_memory.md)."""
+
+
+def pairs_asked(count: int) -> int | None:
+    """The `pairs` of a problem of so many samples as `solve_many` looks at: of many, those of the first alone."""
+    return HEADS if count > MANY else None
 
 
 def solve_many(
@@ -33,19 +39,20 @@ def solve_many(
     """As `solve`, for thousands of samples in farthest-point order: in a tenth of the time, to about the same stress.
 
     The first are solved for alone, from their start. Each other sample goes to the vertex that best keeps its distances
-    to those; then all of them are moved so that the distances to the first are kept, and last so that all are.
+    to those; then all of them are moved so that the distances to the first are kept. Memory is linear in the number of
+    samples, but for pairs that the problem itself has.
 
     Parameters
     ----------
     problem, start, loss, max_iterations, tolerance
-        As of `solve`. The iterations are those of the first samples; all pairs have `LAST_STEPS` at the most.
+        As of `solve`. The iterations are those of the first samples; all samples have twice `STEPS` at the most.
     heads : int
         How many are the first, at least 3 and at most all.
 
     Returns
     -------
     Solution
-        Of all pairs. Its certificate is inf where the stress was still falling.
+        Its stress and residuals are of all pairs of the problem, its certificate of those with the first samples.
 
     See Also
     --------
@@ -59,6 +66,8 @@ def solve_many(
     table[anchored.second, anchored.first] = anchored.source_distances
     reached = np.isfinite(table[heads:]).any(axis=1)
     points = joined(points, mixed(reached, prolonged(table[heads:], problem.target_distance, points), start[heads:]))
-    loose = 10 * tolerance  # as all pairs have the last word
-    points = solve(anchored, points, loss, max_iterations=min(STEPS, max_iterations), tolerance=loose).points
-    return solve(problem, points, loss, max_iterations=min(LAST_STEPS, max_iterations), tolerance=tolerance)
+    for asked in (10 * tolerance, tolerance):
+        found = solve(anchored, points, loss, max_iterations=min(STEPS, max_iterations), tolerance=asked)
+        points = found.points
+    residuals = problem.at(points).residuals
+    return replace(found, residuals=residuals, stress=as_loss(loss).value(residuals))

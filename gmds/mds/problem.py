@@ -14,7 +14,7 @@ from geodesics.caching import cached_property
 from geodesics.distance import as_distance, as_points
 from geodesics.errors import BadArgument
 from geodesics.tracing import barycentric_gradient
-from gmds.mds.chosen_pairs import chosen_pairs, lengths_of, pair_weights
+from gmds.mds.chosen_pairs import Weights, chosen_pairs, lengths_of, pair_weights
 from gmds.mds.jacobian import Jacobian, scaled
 from gmds.mds.pair_distances import EmbeddedPairs, Pairs, pairwise
 
@@ -36,10 +36,12 @@ class Problem:
         Distances of the two surfaces.
     source_points : SurfacePoints or array_like of int
         The p samples of the source, or vertices.
-    weights : array_like of shape (p,) or (p, p), optional
-        Of the samples (:math:`w_{ij} = w_i w_j`) or of the pairs; they are scaled to mean 1.
-    pairs : array_like of shape (r, 2), optional
-        The pairs of samples that are asked for, all of them unless given.
+    weights : array_like of shape (p,) or (p, p), or callable, optional
+        Of the samples (:math:`w_{ij} = w_i w_j`), of the pairs, or a function that makes them (r,) of the source
+        distances (r,) of the pairs; they are scaled to mean 1.
+    pairs : array_like of shape (r, 2), or int, optional
+        The pairs of samples that are asked for, all of them unless given. A number h: those that one of the first h
+        samples belongs to; memory then grows with the number of samples, not with its square.
 
     Raises
     ------
@@ -77,8 +79,8 @@ class Problem:
         source_distance: Distance,
         source_points: SurfacePoints | ArrayLike,
         target_distance: Distance,
-        weights: ArrayLike | None = None,
-        pairs: ArrayLike | None = None,
+        weights: Weights = None,
+        pairs: ArrayLike | int | None = None,
     ) -> None:
         source_distance, target_distance = as_distance(source_distance), as_distance(target_distance)
         source_points = as_points(source_distance.mesh, source_points)
@@ -89,7 +91,7 @@ class Problem:
         if not (lengths[reached] > 0).any():
             raise BadArgument("a problem needs at least two samples at a positive, finite distance from each other")
         first, second, lengths = first[reached], second[reached], lengths[reached]
-        root_weights = np.sqrt(pair_weights(weights, first, second, count))
+        root_weights = np.sqrt(pair_weights(weights, first, second, lengths, count))
         values = (source_points, target_distance, first, second, lengths, root_weights, float(lengths.mean()))
         for column, value in zip(fields(self), values, strict=True):
             object.__setattr__(self, column.name, value)
@@ -183,7 +185,7 @@ class Placement:
         share = [np.bincount(side, square, len(problem)) for side in (problem.first, problem.second)]
         return np.add(*share).astype(np.float64)
 
-    @cached_property
+    @property
     def derivatives(self) -> Floats:
         """Of the residuals by the in-face displacement of their two points, (r, 2, 2)."""
         first, second, lengths = self.problem.first, self.problem.second, self.lengths
@@ -193,15 +195,16 @@ class Placement:
         slope = self.pairs.derivatives(self.distances)
         return np.stack([slope[first, :, second], slope[second, :, first]], axis=1) * scale[:, None, None]
 
-    @cached_property
+    @property
     def jacobian(self) -> Jacobian:
-        """The derivative in steps measured in distances."""
+        """The derivative in steps measured in distances; not kept, as it is most of what a descent holds."""
         problem = self.problem
         weight = np.maximum(problem.total_weights, np.finfo(float).tiny)
         return scaled(problem.first, problem.second, self.derivatives, len(problem), weight)
 
-    @cached_property
+    @property
     def walled_jacobian(self) -> Jacobian:
         """The same with walls: no weight of a point may fall below zero, so that no point leaves its face."""
-        slope = np.einsum("pkx,pxy->pky", barycentric_gradient(self.points), self.jacobian.frames)
-        return replace(self.jacobian, walls=(self.points.barycentric, slope))
+        jacobian = self.jacobian
+        slope = np.einsum("pkx,pxy->pky", barycentric_gradient(self.points), jacobian.frames)
+        return replace(jacobian, walls=(self.points.barycentric, slope))

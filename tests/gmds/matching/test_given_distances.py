@@ -17,6 +17,7 @@ from gmds.matching.given_distances import GivenDistances, placed_in_given, relat
 from gmds.matching.pair import SurfacePair
 from gmds.matching.steps import rounds_of
 from gmds.mds.losses import Huber, LeastSquares, Loss, Minimax
+from gmds.mds.pair_distances import pairwise
 from gmds.shapes import truth
 from gmds.spectral.refinement import Refiner
 from gmds.surface.measured import EXPONENTS
@@ -86,8 +87,9 @@ def test_far_pairs_weigh_less_whatever_the_unit() -> None:
     mesh = bumpy()
     points = SurfacePoints.at_vertices(mesh, np.arange(0, mesh.n_vertices, 20))
     twice = Mesh(2 * mesh.vertices, mesh.faces)
-    weights = relative_weights(GeodesicDistance(mesh), points)
-    same = relative_weights(GeodesicDistance(twice), SurfacePoints(twice, points.face, points.barycentric))
+    weights = relative_weights(pairwise(GeodesicDistance(mesh), points).distances())
+    there = SurfacePoints(twice, points.face, points.barycentric)
+    same = relative_weights(pairwise(GeodesicDistance(twice), there).distances())
     np.testing.assert_allclose(weights / weights.mean(), same / same.mean(), rtol=1e-9)
     distances = GeodesicDistance(mesh).field(points)[:, np.arange(0, mesh.n_vertices, 20)]
     far, near = (
@@ -99,5 +101,5 @@ def test_far_pairs_weigh_less_whatever_the_unit() -> None:
 def test_pairs_out_of_reach_weigh_nothing() -> None:
     both = joined(bumpy(), torus(24, 12))
     points = SurfacePoints.at_vertices(both, [0, 40, both.n_vertices - 1])
-    weights = relative_weights(GeodesicDistance(both), points)
+    weights = relative_weights(pairwise(GeodesicDistance(both), points).distances())
     assert weights[0, 2] == 0 and weights[0, 1] > 0 and np.isfinite(weights).all()

@@ -177,6 +177,8 @@ def test_weights_and_chosen_pairs(mesh: Mesh) -> None:
         ({"weights": [1.0, 2.0]}, r"\(8,\) or \(8, 8\)"),
         ({"weights": [-1.0] + [1.0] * 7}, "not negative"),
         ({"weights": [np.nan] * 8}, "finite"),
+        ({"weights": lambda lengths: lengths[:3]}, "28 distances"),
+        ({"pairs": 0}, "1 of the first"),
         ({"pairs": [[0, 8]]}, "0 .. 7"),
         ({"pairs": [[1, 1]]}, "two different"),
         ({"pairs": [[0.0, 1.0]]}, "whole numbers"),
@@ -280,6 +282,24 @@ def test_chosen_pairs_are_those_of_all(distance: Distance, mesh: Mesh) -> None:
     ratio = every.problem.unit / some.problem.unit
     np.testing.assert_allclose(some.derivatives, every.derivatives[place] * ratio, rtol=1e-7, atol=1e-10)
     np.testing.assert_allclose(every.lengths, every.distances[every.problem.first, every.problem.second], rtol=1e-9)
+
+
+def test_pairs_of_the_first_samples_are_asked_for_by_their_number(distance: Distance, mesh: Mesh) -> None:
+    points, there = inner_points(mesh, 9), inner_points(mesh, 9, seed=1)
+    first, second = np.triu_indices(9, 1)
+    chosen = np.stack([first, second], axis=1)[first < 3]
+    few, named = (Problem(distance, points, distance, pairs=pairs) for pairs in (3, chosen))
+    np.testing.assert_array_equal(np.stack([few.first, few.second]), np.stack([named.first, named.second]))
+    np.testing.assert_array_equal(few.at(there).residuals, named.at(there).residuals)
+    assert len(Problem(distance, points, distance, pairs=100).first) == len(first)
+
+
+def test_weights_may_be_made_of_the_distances(mesh: Mesh) -> None:
+    distance = DISTANCES["commute time"](mesh)
+    points = inner_points(mesh, 9)
+    table = pairwise(distance, points).distances()
+    made = Problem(distance, points, distance, lambda lengths: lengths**2)
+    np.testing.assert_allclose(made.root_weights, Problem(distance, points, distance, table**2).root_weights)
 
 
 def test_anchored_problems_have_the_pairs_of_the_first(mesh: Mesh) -> None:

@@ -200,6 +200,17 @@ def test_many_samples_end_about_as_low_as_all_at_once(commute: Distance, mesh: M
     assert solve_many(problem, start, heads=50).stress < 1.15 * solve(problem, start).stress
 
 
+def test_many_samples_asked_for_by_the_first_alone_end_as_low_in_all_pairs(commute: Distance, mesh: Mesh) -> None:
+    """The problem has no pair but those to the first; the stress of all pairs is a fiftieth above at the most."""
+    bent = Mesh(mesh.vertices * [1, 1.3, 0.8], mesh.faces)
+    there, points = CommuteTimeDistance(eigenpairs(bent, 30)), samples(commute, 150)
+    start = shaken(SurfacePoints(bent, points.face, points.barycentric), 0.1)
+    every, few = Problem(commute, points, there), Problem(commute, points, there, pairs=50)
+    found, known = solve_many(few, start, heads=50), solve_many(every, start, heads=50)
+    assert len(found.residuals) == 50 * 49 / 2 + 50 * 100
+    assert LeastSquares().value(every.at(found.points).residuals) < 1.02 * known.stress
+
+
 def test_samples_that_the_first_do_not_reach_stay_where_they_started() -> None:
     both = shapes.joined(shapes.bumpy_sphere(2), shapes.torus(24, 12))
     distance = GeodesicDistance(embedded(both))

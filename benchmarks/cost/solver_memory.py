@@ -1,0 +1,165 @@
+"""What the solver holds in memory: against samples, and against vertices.
+
+    python -m benchmarks.cost.solver_memory [--only all-pairs]
+
+Pairs of surfaces and starts are those of `solver_cost`. "Pairs to the first" is a problem as `match` poses it: of more
+than 1,000 samples only pairs that one of the first 250 belongs to, solved by `gmds.solve_by_ladder`. "All pairs" is
+`gmds.solve` of all of them. Of surfaces of 5,000, 20,000 and 50,000 vertices geodesic distances in g are tabulated (300
+farthest points, rank 120), and 2,000 samples placed in them. "match" is the whole of it by geodesics in |K| g. Each
+case runs in a process of its own, after a small one, so that kernels are compiled; what that process held before is
+taken off. Linux alone tells this. CPU seconds are of one thread. Writes results/solver_memory.md and .csv.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import geodesics
+import gmds
+from benchmarks.cost.solver_cost import ONE, animal, placed
+from benchmarks.markdown import table
+from benchmarks.memory import peak_megabytes
+from benchmarks.places import RESULTS
+from gmds.mds.losses import LeastSquares
+from gmds.mds.many_samples import HEADS, MANY, pairs_asked
+from gmds.shapes import quadruped
+
+PAGE, ROWS = RESULTS / "solver_memory.md", RESULTS / "solver_memory.csv"
+CLEAR = Path("/proc/self/clear_refs")  # 5 written to it: the peak starts anew from what is held now
+CASES = [
+    *(f"first {count} 5000" for count in (250, 500, 1000, 2000, 4000)),
+    *(f"all-pairs {count} 5000" for count in (250, 500, 1000, 2000, 4000)),
+    *(f"{what} 2000 {vertices}" for vertices in (5000, 20_000, 50_000) for what in ("table", "first-in-table")),
+    *(f"match {count} 5000" for count in (500, 2000, 4000)),
+]
+MEANS = {
+    "first": "pairs to the first, as `match` poses it",
+    "all-pairs": "all pairs",
+    "table": "two tables of geodesic distances made",
+    "first-in-table": "pairs to the first, in these tables",
+    "match": "`match(distance=...)`, all of it",
+}
+
+
+def geodesic(mesh: geodesics.Mesh) -> geodesics.GeodesicDistance:
+    """Geodesic distances in |K| g."""
+    return geodesics.GeodesicDistance(geodesics.scale_invariant(mesh))
+
+
+def commute(mesh: geodesics.Mesh) -> geodesics.CommuteTimeDistance:
+    """Commute-time distances by 100 eigenfunctions."""
+    return geodesics.CommuteTimeDistance(geodesics.eigenpairs(mesh, 100))
+
+
+def grown(work: Callable[[], Any]) -> dict[str, float]:
+    """CPU seconds of some work, and by how many megabytes memory grew in it at the most."""
+    CLEAR.write_text("5", encoding="ascii")
+    before, cpu = peak_megabytes(), time.process_time()
+    work()
+    return {"megabytes": peak_megabytes() - before, "cpu": time.process_time() - cpu, "base": before}
+
+
+def measured(what: str, count: int, vertices: int) -> dict[str, float]:
+    """One case, in this process: megabytes, CPU seconds, megabytes held before; and the stress of all pairs."""
+    small = quadruped(n_vertices=600), quadruped("walk", n_vertices=600, seed=1)
+    start, _ = placed(*small, range(30))
+    here = geodesics.SurfacePoints.at_vertices(small[0], range(30))
+    distances = commute(small[0]), commute(small[1])
+    gmds.solve_by_ladder(gmds.Problem(distances[0], here, distances[1]), start)
+    both = animal(vertices), animal(vertices, "walk")
+    if what == "match":
+        gmds.match(*small, distance=geodesic, n_samples=30)
+        return grown(lambda: gmds.match(*both, distance=geodesic, n_samples=count))
+    if what == "table":
+        gmds.TabulatedDistance(geodesics.GeodesicDistance(small[0]), landmarks=30)
+        return grown(lambda: [gmds.TabulatedDistance(geodesics.GeodesicDistance(mesh)) for mesh in both])
+    made = (lambda mesh: gmds.TabulatedDistance(geodesics.GeodesicDistance(mesh))) if "table" in what else commute
+    ours, theirs = made(both[0]), made(both[1])
+    samples = geodesics.farthest_point_sampling(commute(both[0]), count)
+    points, (start, _) = geodesics.SurfacePoints.at_vertices(both[0], samples), placed(*both, samples)
+    found: list[gmds.Solution] = []
+
+    def work() -> None:
+        asked = None if what == "all-pairs" else pairs_asked(count)
+        solver = gmds.solve if what == "all-pairs" else gmds.solve_by_ladder
+        found.append(solver(gmds.Problem(ours, points, theirs, pairs=asked), start))
+
+    row = grown(work)
+    every = gmds.Problem(ours, points, theirs).at(found[0].points).residuals
+    return {**row, "stress": LeastSquares().value(every)}
+
+
+def page(rows: list[dict[str, str]]) -> str:
+    """solver_memory.md."""
+    told = [
+        [MEANS[row["what"]], *(f"{int(row[name]):,}" for name in ("samples", "vertices")), row["megabytes"], row["cpu"]]
+        for row in rows
+    ]
+    told = [[*cells, row["stress"] or "-"] for cells, row in zip(told, rows, strict=True)]
+    held = sorted(float(row["base"]) for row in rows)
+    return "\n".join(
+        [
+            "# Memory of the solver",
+            "",
+            "`python -m benchmarks.cost.solver_memory`: see there for what is solved. Megabytes by which memory grew",
+            f"at the most; the process held {held[0]:.0f} to {held[-1]:.0f} MB before (Python, libraries, compiled",
+            f"kernels, both surfaces, their spectra or tables). Of more than {MANY:,} samples `match` asks for pairs",
+            f"to the first {HEADS} alone: what it holds is then linear in samples. The stress is that of all pairs.",
+            "",
+            *table(["what", "samples", "vertices", "MB", "CPU s", "stress"], told),
+            "",
+            "What is not linear in samples: a problem of all pairs holds four numbers a pair, and `gmds.solve` of it",
+            "the derivative of each by both its points as well; `pairs=250` of `gmds.Problem` avoids that.",
+            "`gmds.solve_multiresolution` makes tables of samples by samples, and of samples by vertices, when it",
+            "moves samples elsewhere. A distance without coordinates, such as `GeodesicDistance`, holds samples by",
+            "vertices numbers; `gmds.TabulatedDistance` of it does not, and `match` makes that by itself.",
+            "",
+        ]
+    )
+
+
+def in_a_process(case: str) -> dict[str, str]:
+    """One case, in a process of its own, as a row."""
+    command = [sys.executable, "-m", "benchmarks.cost.solver_memory", "--case", case]
+    told = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env={**os.environ, **ONE})
+    found = json.loads(told.stdout)
+    what, count, vertices = case.split()
+    numbers = {"megabytes": f"{found['megabytes']:.0f}", "cpu": f"{found['cpu']:.1f}", "base": f"{found['base']:.0f}"}
+    stress = f"{found['stress']:.3g}" if "stress" in found else ""
+    return {"what": what, "samples": count, "vertices": vertices, **numbers, "stress": stress}
+
+
+def main() -> None:
+    """Run the cases, write the page and its rows."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--only", default="", help="cases whose names have this in them, printed")
+    parser.add_argument("--case", help=argparse.SUPPRESS)
+    options = parser.parse_args()
+    if options.case:
+        what, count, vertices = options.case.split()
+        print(json.dumps(measured(what, int(count), int(vertices))))
+        return
+    rows = []
+    for case in CASES:
+        if options.only in case:
+            rows.append(in_a_process(case))
+            print(*rows[-1].values(), flush=True)
+    if not options.only:
+        with ROWS.open("w", encoding="utf-8", newline="") as file:
+            writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(rows)
+        PAGE.write_text(page(rows), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
