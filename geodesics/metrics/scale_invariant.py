@@ -18,9 +18,9 @@ def scale_invariant(
 
     .. math:: \tilde g_{ij} = (K^2 + \epsilon^2)^{a/2} \, g_{ij} \approx |K|^a g_{ij}
 
-    What is nearly a cylinder, as limbs are, has hardly any Gaussian curvature: at a = 1 limbs shrink nearly to points.
-    For geodesic distances of `gmds.match` a = 1 with a smoothing of 0.02 is best all the same, of a = 0, 1/3, 1/2, 2/3
-    and 1 on development pairs (benchmarks/results/plain.md).
+    What is flat or nearly a cylinder has hardly any Gaussian curvature: at a = 1 trunks shrink, of people to a twelfth
+    of the area, and tips of limbs take up to two thirds (benchmarks/results/metric_shares.md). For geodesic distances
+    of `gmds.match` a = 1 with a smoothing of 0.02 is best all the same, of a = 0, 1/3, 1/2, 2/3, 1 (plain.md there).
 
     Parameters
     ----------
