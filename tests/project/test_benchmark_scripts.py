@@ -18,6 +18,7 @@ from places import ROOT
 from geodesics import Mesh
 from gmds.benchmarking.datasets import Pair, dataset_pairs
 from gmds.benchmarking.run import BenchmarkRow, benchmark
+from gmds.shapes import quadruped, truth
 
 SCRIPTS = ROOT / "benchmarks"
 SETS = ("scaled", "faust_5k", "tosca_5k", "tosca_cross_5k", "shrec20", "shrec20_reversed")
@@ -245,3 +246,18 @@ def test_random_parts_repeat_and_their_truth_is_exact(
         again = onto.points[back.points.nearest_vertices()].positions
         edges = np.linalg.norm(whole.vertices[whole.faces[:, 0]] - whole.vertices[whole.faces[:, 1]], axis=1)
         assert np.linalg.norm(again - whole.vertices[back.there], axis=1).max() < 2 * edges.max()
+
+
+def test_what_two_cut_shapes_have_in_common_is_where_it_was(scripts: Any) -> None:
+    both_cut = scripts("both_cut")
+    source, target = quadruped(n_vertices=400), quadruped("walk", n_vertices=400, seed=2)
+    true = truth(source, target)
+    known = both_cut.cases.Known(source, target, np.arange(source.n_vertices), true)
+    (ours, theirs), left = both_cut.both_cut(known, np.random.default_rng(0))
+    assert len(left.there) >= both_cut.COMMON * source.n_vertices and not set(left.there) & set(left.missing)
+    for piece, whole in ((ours, source), (theirs, target)):
+        assert 0.45 < piece.area / whole.area < 0.8
+    rows = {tuple(place): row for row, place in enumerate(source.vertices)}
+    origin = [rows[tuple(place)] for place in ours.vertices[left.there]]
+    goals = target.vertices[true[np.array(origin)].nearest_vertices()]
+    np.testing.assert_array_equal(theirs.vertices[left.points], goals)
