@@ -99,8 +99,10 @@ class Scene {
   }
 }
 
-// Hands on a panel: drag turns, shift or the right button moves, the wheel and two fingers zoom. One finger turns
-// sideways and scrolls the page up and down, as the style of the panel says.
+const CLICK = 4; // pixels that a pointer may stray within a click; after them is known what it does
+
+// Hands on a panel: drag turns, shift or the right button moves, the wheel and two fingers zoom. What a finger does
+// its first pixels say: upright it scrolls the page and the surface stays, else it turns the surface and the page stays.
 function handle(scene, clicked) {
   const { plot } = scene;
   const fingers = new Map();
@@ -110,21 +112,17 @@ function handle(scene, clicked) {
     working = Boolean(scene.tool && event.button === 0 && scene.tool("down", event));
     if (working) return plot.setPointerCapture(event.pointerId);
     fingers.set(event.pointerId, [event.clientX, event.clientY]);
-    pressed = { x: event.clientX, y: event.clientY, far: false };
+    pressed = { x: event.clientX, y: event.clientY, far: fingers.size > 1, scrolls: false };
     plot.setPointerCapture(event.pointerId);
   });
   plot.addEventListener("pointermove", (event) => {
     if (working) return scene.tool("move", event);
     const last = fingers.get(event.pointerId);
     if (!last) return;
-    const [dx, dy] = [event.clientX - last[0], event.clientY - last[1]];
     const before = spread(fingers);
     fingers.set(event.pointerId, [event.clientX, event.clientY]);
-    if (Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) >= 4) pressed.far = true;
-    if (!pressed.far) return;
-    if (fingers.size > 1) scene.look(panned(zoomed(scene.camera, before / (spread(fingers) || before)), dx / 2, dy / 2, plot.clientHeight));
-    else if (event.shiftKey || event.buttons & 2) scene.look(panned(scene.camera, dx, dy, plot.clientHeight));
-    else scene.look(rotated(scene.camera, (-dx * Math.PI) / plot.clientHeight, (-dy * Math.PI) / plot.clientHeight));
+    if (!pressed.far) begin(pressed, event);
+    if (pressed.far && !pressed.scrolls) drag(scene, event, last, fingers.size > 1 ? before / (spread(fingers) || before) : 0);
   });
   const released = (event) => {
     if (working) {
@@ -137,11 +135,30 @@ function handle(scene, clicked) {
   };
   plot.addEventListener("pointerup", released);
   plot.addEventListener("pointercancel", released);
+  plot.addEventListener("touchmove", (event) => {
+    if (event.cancelable && (working || (pressed && pressed.far && !pressed.scrolls))) event.preventDefault();
+  }, { passive: false });
   plot.addEventListener("contextmenu", (event) => event.preventDefault());
   plot.addEventListener("wheel", (event) => {
     event.preventDefault();
     scene.look(zoomed(scene.camera, Math.exp(Math.min(Math.max(event.deltaY, -200), 200) / 600)));
   }, { passive: false });
+}
+
+// whether a pointer is more than a click by now, and whether it is a finger that scrolls the page
+function begin(pressed, event) {
+  const [dx, dy] = [Math.abs(event.clientX - pressed.x), Math.abs(event.clientY - pressed.y)];
+  pressed.far = Math.hypot(dx, dy) >= CLICK;
+  pressed.scrolls = pressed.far && event.pointerType === "touch" && dy > dx;
+}
+
+// a step of a pointer from where it was last; `closer` is by what factor two fingers bring the surface, 0 for one
+function drag(scene, event, last, closer) {
+  const [dx, dy] = [event.clientX - last[0], event.clientY - last[1]];
+  const height = scene.plot.clientHeight;
+  if (closer) scene.look(panned(zoomed(scene.camera, closer), dx / 2, dy / 2, height));
+  else if (event.shiftKey || event.buttons & 2) scene.look(panned(scene.camera, dx, dy, height));
+  else scene.look(rotated(scene.camera, (-dx * Math.PI) / height, (-dy * Math.PI) / height));
 }
 
 function spread(fingers) {

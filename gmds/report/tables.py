@@ -15,8 +15,8 @@ Rows = list[tuple[str, str]]
 Card = tuple[str, str, str]  # a figure, what it is, and which of `WORDS` that is of, if of any
 
 GENERAL = (
-    "Drag to turn, scroll or pinch to zoom, Shift and drag to move. With the keyboard: Tab to a surface, then arrow "
-    "keys, plus and minus.",
+    "Drag to turn, scroll to zoom, Shift and drag to move. With fingers: sideways turns, up and down scrolls the page, "
+    "two zoom and move. With the keyboard: Tab to a surface, then arrow keys, plus and minus.",
     "Point at a surface, and the partner lights up on the other. A dashed ring is a partner on the far side. Every "
     "click keeps one more pair marked while you turn; Escape lets all of them go.",
     "Grey has no counterpart, or no value. Scales are the same on every page, so that two pages can be compared, "

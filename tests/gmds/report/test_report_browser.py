@@ -373,26 +373,6 @@ def test_a_narrow_window_shows_one_surface_under_the_other(running: Any, file: P
     assert readout["y"] + readout["height"] <= 640, "what is told stays in view"
 
 
-def test_what_a_finger_tapped_is_told_until_the_next_tap(running: Any, file: Path) -> None:
-    """A finger leaves the surface as it is lifted, which is no reason to forget what it tapped."""
-    context = running.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True, offline=True)
-    page = context.new_page()
-    page.goto(file.as_uri())
-    page.wait_for_selector("body[data-ready]")
-    places = page.evaluate("""() => [30, 900].map((vertex) => {
-        const scene = gmdsPage.scenes[0], box = scene.plot.getBoundingClientRect();
-        const { x, y } = scene.place(scene.vertex(vertex));
-        return [box.left + x, box.top + y];
-    })""")
-    told = []
-    for x, y in places:
-        page.touchscreen.tap(x, y)
-        told.append(read_out(page).get("vertex"))
-        assert page.locator("#readout").inner_text().startswith(f"Vertex {told[-1]} of ")
-    assert told[0] != told[1]
-    context.close()
-
-
 def test_the_map_beside_it_is_told_of_as_well(page: Any) -> None:
     page.select_option("#beside", index=2)
     page.evaluate("gmdsPage.mark({ side: 0, vertex: 151 })")
