@@ -195,7 +195,7 @@ class Correspondence:
         return write_picture(path, self, errors, **options)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write map.npz, version 1 (see `gmds.maps.npz_format`), atomically, without candidates. Raises `OSError`."""
+        """Write map.npz (see `gmds.maps.npz_format`) atomically, with all candidates. Raises `OSError`."""
         write_map(path, *members(self), self.source, self.target)
 
     @classmethod

@@ -8,6 +8,7 @@ import json
 import tempfile
 import zipfile
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +23,7 @@ from gmds import __version__
 from gmds.batch.surface_file import write_surface
 from gmds.correspondence import Correspondence
 from gmds.landmarks.files import Landmarks, write_landmarks
+from gmds.maps.point_map import Candidate
 from gmds.mds.losses import LeastSquares
 from gmds.provenance import method_in_words
 from gmds.surface.measured import measure
@@ -88,15 +90,17 @@ def written(name: str, write: Callable[[Path], object]) -> bytes:
 
 
 def maps() -> Contents:
-    """A map, and one whose members are others."""
+    """A map, one whose members are others, and one with candidates."""
     points = SurfacePoints.at_vertices(TARGET, np.arange(SOURCE.n_vertices))
     pairs = {"face": [0, 3], "barycentric": [[1, 0, 0], [0.5, 0.25, 0.25]]}
     made = {"n_samples": 12, "orientation": "preserve", "rng": 1, **method_in_words(None, LeastSquares())}
     made["landmarks"] = {"source": pairs, "target": pairs, "tolerance": [0.0, 0.05]}
     meta = {"parameters": made, "versions": {"gmds": __version__}, "evidence": {"stress": 0.1, "margin": 2.5}}
     answer = Correspondence.from_points(SOURCE, points, meta=meta)
+    several = replace(answer, candidates=(Candidate(points, 0.2, -0.5), Candidate(points, 0.3, 0.5)))
     others = {"face": points.face, "barycentric": points.barycentric, "vertex": answer.vertex_map()}
-    return [written("m.npz", answer.save), written("m.npz", lambda path: np.savez(path, **others))]
+    writers = answer.save, lambda path: np.savez(path, **others), several.save
+    return [written("m.npz", write) for write in writers]
 
 
 @functools.cache

@@ -1,8 +1,9 @@
-"""map.npz, version 1: a map on disk, readable with numpy alone, never pickled.
+"""map.npz, versions 1 and 2: a map on disk, readable with numpy alone, never pickled.
 
 Members: `face` int32 (n,), `barycentric` float64 (n, 3), `vertex` int64 (n,), `valid` bool (n,),
 `distortion` float32 (n,), `meta` UTF-8 JSON bytes as uint8; of a map that was rated also `confidence` float32 (n,),
-which files of older releases lack.
+which files of older releases lack. A map with candidates has those of `gmds.maps.candidate_rows` too, and is of
+version 2; one without is of version 1, which older releases read.
 """
 
 from __future__ import annotations
@@ -23,11 +24,14 @@ from geodesics.io import atomic_write
 from geodesics.mesh import Mesh
 from gmds.errors import MapArray, MapMembers, MapMismatch, MapVersion, PickledMember
 from gmds.files.npz import DAMAGED, PickledArray, opened, read_header, read_member
+from gmds.maps import candidate_rows
 
-FORMAT, VERSION = "gmds-map", 1
+FORMAT, VERSIONS = "gmds-map", (1, 2)  # without candidates, with them
 DTYPES = {"face": "<i4", "barycentric": "<f8", "vertex": "<i8", "valid": "|b1", "distortion": "<f4", "meta": "|u1"}
 OPTIONAL = {"confidence": "<f4"}
-MAX_META_BYTES = 16_000_000  # a bound on memory; what `match` writes has a few thousand
+KNOWN = DTYPES | OPTIONAL | candidate_rows.DTYPES
+# bounds on memory: what `match` writes has a few thousand bytes, and up to ten candidates
+MOST, MOST_TOLD = {"meta": 16_000_000, candidate_rows.COUNTED: 1000}, {"meta": "16 MB", candidate_rows.COUNTED: "1000"}
 
 T = TypeVar("T")
 Arrays = dict[str, NDArray[Any]]
@@ -44,14 +48,13 @@ def write_map(
     path: str | os.PathLike[str], arrays: Arrays, meta: Mapping[str, Any], source: Mesh, target: Mesh
 ) -> None:
     """Write the arrays and the meta data atomically; raises `OSError`, or `TypeError` when meta is not JSON."""
-    head = {"format": FORMAT, "version": VERSION, "source": fingerprint(source), "target": fingerprint(target)}
+    version = VERSIONS[candidate_rows.COUNTED in arrays]
+    head = {"format": FORMAT, "version": version, "source": fingerprint(source), "target": fingerprint(target)}
     text = json.dumps({**meta, **head}, sort_keys=True, allow_nan=False, default=_plain).encode("utf-8")
     members = {**arrays, "meta": np.frombuffer(text, dtype=np.uint8)}
     with atomic_write(path) as stream:
         packed: dict[str, Any] = {
-            name: np.asarray(members[name]).astype(dtype)
-            for name, dtype in (DTYPES | OPTIONAL).items()
-            if name in members
+            name: np.asarray(members[name]).astype(dtype) for name, dtype in KNOWN.items() if name in members
         }
         np.savez_compressed(stream, **packed)
 
@@ -79,15 +82,20 @@ def _opened(path: Path, read: Callable[[zipfile.ZipFile], T]) -> T:
 
 def read_meta(path: str | os.PathLike[str]) -> dict[str, Any]:
     """The meta data of a map alone, whatever meshes it belongs to. Raises as `read_map`."""
-    return _opened(Path(path), lambda archive: _parse_meta(Path(path), _member(Path(path), archive, "meta", None)))
+    return _opened(Path(path), lambda archive: _read_meta(Path(path), archive))
 
 
 def _read_members(path: Path, archive: zipfile.ZipFile, source: Mesh, target: Mesh) -> tuple[Arrays, dict[str, Any]]:
+    if "meta.npy" in archive.namelist():
+        _read_meta(path, archive)  # a version that is not read is told before members that are not known
     there = _check_names(path, archive)
-    meta = _parse_meta(path, _member(path, archive, "meta", None))
+    meta = _read_meta(path, archive)
     _check_meshes(path, meta, source, target)
-    shapes: dict[str, tuple[int, ...]] = {name: (source.n_vertices,) for name in there if name != "meta"}
-    shapes |= {"barycentric": (source.n_vertices, 3)}
+    n, rated = source.n_vertices, [name for name in there if name in OPTIONAL]
+    shapes = {"face": (n,), "barycentric": (n, 3)} | dict.fromkeys(("vertex", "valid", "distortion", *rated), (n,))
+    if candidate_rows.COUNTED in there:
+        count = len(_member(path, archive, candidate_rows.COUNTED, None))
+        shapes |= candidate_rows.shapes(count, n)
     return {name: _member(path, archive, name, shape) for name, shape in shapes.items()}, meta
 
 
@@ -104,17 +112,22 @@ def _check_names(path: Path, archive: zipfile.ZipFile) -> list[str]:
     missing = [name for name in DTYPES if name not in names]
     if missing:
         raise MapMembers(f"{path} lacks {', '.join(missing)}; a map has the members {', '.join(DTYPES)}")
-    known = DTYPES | OPTIONAL
-    extra = sorted({name for name in names if name not in known or names.count(name) > 1})
+    extra = sorted({name for name in names if name not in KNOWN or names.count(name) > 1})
     if extra:
         raise MapMembers(
-            f"{path} has unknown or repeated members {extra[:5]!r}; a map has {', '.join(known)} once each"
+            f"{path} has unknown or repeated members {extra[:5]!r}; a map has {', '.join(KNOWN)} once each"
         )
-    return [name for name in known if name in names]
+    lacking = [name for name in candidate_rows.DTYPES if name not in names]
+    if 0 < len(lacking) < len(candidate_rows.DTYPES):
+        raise MapMembers(f"{path} lacks {', '.join(lacking)} of its candidates")
+    return [name for name in KNOWN if name in names]
 
 
 def _member(path: Path, archive: zipfile.ZipFile, name: str, shape: tuple[int, ...] | None) -> NDArray[Any]:
-    """One array, its header checked before any of its bytes are taken: a lying header costs nothing."""
+    """One array, its header checked before any of its bytes are taken: a lying header costs nothing.
+
+    Without a shape it is a row of at most `MOST`.
+    """
     with archive.open(f"{name}.npy") as stream:
         try:
             stored, _, dtype = read_header(stream)
@@ -122,11 +135,10 @@ def _member(path: Path, archive: zipfile.ZipFile, name: str, shape: tuple[int, .
             raise PickledMember(f"{path}: member {name} holds {error}") from error
         except ValueError as error:
             raise MapArray(f"{path}: member {name} has {error}") from error
-    limit = (MAX_META_BYTES,) if shape is None else shape
-    fits = stored == limit or (shape is None and len(stored) == 1 and stored[0] <= MAX_META_BYTES)
-    expected = np.dtype((DTYPES | OPTIONAL)[name])
+    fits = len(stored) == 1 and stored[0] <= MOST[name] if shape is None else stored == shape
+    expected = np.dtype(KNOWN[name])
     if dtype != expected or not fits:
-        wanted = "(at most 16 MB,)" if shape is None else shape
+        wanted = f"(at most {MOST_TOLD[name]},)" if shape is None else shape
         raise MapArray(f"{path}: member {name} is {dtype} {stored}, expected {expected} {wanted}")
     try:
         return read_member(archive, f"{name}.npy")
@@ -134,15 +146,17 @@ def _member(path: Path, archive: zipfile.ZipFile, name: str, shape: tuple[int, .
         raise MapArray(f"{path}: member {name}: {error}") from error
 
 
-def _parse_meta(path: Path, raw: NDArray[Any]) -> dict[str, Any]:
+def _read_meta(path: Path, archive: zipfile.ZipFile) -> dict[str, Any]:
+    raw = _member(path, archive, "meta", None)
     try:
         meta = json.loads(raw.tobytes().decode("utf-8"))
     except (UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:
         raise MapArray(f"{path}: meta is not UTF-8 JSON ({error})") from error
     if not isinstance(meta, dict) or meta.get("format") != FORMAT:
         raise MapVersion(f"{path} is not a {FORMAT} file")
-    if meta.get("version") != VERSION:
-        raise MapVersion(f"{path} has version {meta.get('version')!r}; this release reads version {VERSION}")
+    if meta.get("version") not in VERSIONS:
+        known = " and ".join(map(str, VERSIONS))
+        raise MapVersion(f"{path} has version {meta.get('version')!r}; this release reads versions {known}")
     return meta
 
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from geodesics.mesh import Mesh
 from geodesics.points import SurfacePoints
 from gmds.errors import MapError
+from gmds.maps.candidate_rows import candidate_members, candidates_of
 from gmds.maps.point_map import MatchStatus, PointMap
 
 OF_THE_FILE = ("format", "version", "source", "target", "status")  # members of its meta that are not the map's
@@ -59,7 +60,8 @@ def members(answer: PointMap) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
     arrays = {"face": points.face, "barycentric": points.barycentric, "vertex": points.nearest_vertices()}
     rated = {} if np.isnan(answer.confidence).all() else {"confidence": answer.confidence}
     told = {**answer.meta, "status": answer.status.name}
-    return {**arrays, "valid": answer.valid, "distortion": answer.distortion, **rated}, told
+    rows = {**arrays, "valid": answer.valid, "distortion": answer.distortion, **rated}
+    return {**rows, **candidate_members(answer.candidates)}, told
 
 
 def attributes(target: Mesh, arrays: Mapping[str, NDArray[Any]], told: Mapping[str, Any]) -> dict[str, Any]:
@@ -69,5 +71,6 @@ def attributes(target: Mesh, arrays: Mapping[str, NDArray[Any]], told: Mapping[s
         "points": SurfacePoints(target, arrays["face"], arrays["barycentric"]),
         **{name: arrays[name] for name in ("valid", "distortion", "confidence") if name in arrays},
         "status": status,
+        "candidates": candidates_of(target, arrays),
         "meta": {key: value for key, value in told.items() if key not in OF_THE_FILE},
     }

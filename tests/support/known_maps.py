@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,7 @@ from generated_shapes import bumpy_sphere, icosphere, subdivided
 from geodesics import Mesh, SurfacePoints
 from geodesics.closest import closest_on_triangles
 from gmds.correspondence import Correspondence
-from gmds.maps.point_map import MatchStatus
+from gmds.maps.point_map import Candidate, MatchStatus
 
 SOURCE, TARGET = bumpy_sphere(1), icosphere(2)
 
@@ -37,6 +38,16 @@ def make_answer() -> Correspondence:
     meta = {"seed": 3, "parameters": {"n_samples": np.int64(7), "weights": np.arange(2.0)}, "timings": {"solve": 0.5}}
     valid, distortion = rng.random(n) > 0.2, rng.random(n).astype(np.float32).astype(np.float64)
     return Correspondence(SOURCE, TARGET, points, valid, distortion, MatchStatus.AMBIGUOUS, (), meta)
+
+
+def with_candidates(count: int = 3) -> Correspondence:
+    """The same with so many candidates, weights of some of which are halves, or all at one corner."""
+    rng, n = np.random.default_rng(1), SOURCE.n_vertices
+    weights = [rng.dirichlet(np.ones(3), n), np.tile([0.0, 0.5, 0.5], (n, 1)), np.tile([0.0, 0.0, 1.0], (n, 1))]
+    faces = rng.integers(0, TARGET.n_faces, (count, n))
+    points = [SurfacePoints(TARGET, face, weights[i % 3]) for i, face in enumerate(faces)]
+    candidates = tuple(Candidate(one, 0.01 * i + 0.001, 0.5 - i) for i, one in enumerate(points))
+    return replace(make_answer(), candidates=candidates)
 
 
 def members(path: Path) -> dict[str, Any]:

@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from gmds.cli.group import Command
 from gmds.cli.output import emit, json_option, note
 from gmds.cli.view_options import view_options, write_views
+
+if TYPE_CHECKING:
+    from geodesics import SurfacePoints
+    from geodesics.arrays import Floats, Integers
+    from gmds.correspondence import Correspondence
+
+    Truth = tuple[Integers, SurfacePoints]
 
 FILE = click.Path(path_type=Path)
 
@@ -47,22 +54,44 @@ def command(
     """
     from dataclasses import asdict
 
-    import numpy as np
-
     from geodesics import read_mesh
     from gmds import Correspondence
     from gmds.benchmarking.overlap import overlap_scores
     from gmds.benchmarking.truth_files import read_missing_npz, read_truth
-    from gmds.evaluation import coverage, error_curve, geodesic_error, protocol_subset, summary
+    from gmds.evaluation import coverage
 
     meshes = read_mesh(source), read_mesh(target)
     answer = Correspondence.load(map_file, *meshes)
-    result: dict[str, Any] = {}
     wanted = {"direct": read_truth(truth, *meshes, source_path=source_truth)}
     if symmetric_truth is not None:
         wanted["sym"] = read_truth(symmetric_truth, *meshes, source_path=source_truth)
     elif truth.suffix.lower() == ".npz":
         wanted["sym"] = read_truth(truth, *meshes, flipped=True)
+    result, curve, known = _judged(answer, wanted, points, candidates=shown["report"] is not None)
+    result["best"] = min(entry["mean"] for entry in result.values())
+    result["coverage"] = 100 * coverage(answer)
+    result["valid"] = 100 * float(answer.valid.mean())
+    missing = read_missing_npz(truth) if truth.suffix.lower() == ".npz" else None
+    if missing is not None and wanted["direct"] is not None:
+        scores = asdict(overlap_scores(answer.valid, wanted["direct"][0], missing))
+        result["overlap"] = {name: None if share is None else 100 * share for name, share in scores.items()}
+    result["curve"] = curve
+    emit(result, as_json)
+    title = f"{map_file.name}: {source.name} → {target.name}"
+    write_views(answer, **shown, errors=known, title=title, names=(source.name, target.name))
+
+
+def _judged(
+    answer: Correspondence, wanted: dict[str, Truth | None], points: int, *, candidates: bool
+) -> tuple[dict[str, Any], list[float], Floats]:
+    """Figures by each truth; by the direct one also the curve, and errors (k, n): of the map, and of its candidates."""
+    from dataclasses import asdict
+
+    import numpy as np
+
+    from gmds.evaluation import error_curve, errors_of_maps, geodesic_error, protocol_subset, summary
+
+    result: dict[str, Any] = {}
     curve: list[float] = []
     known = np.full((1, len(answer.valid)), np.nan)
     for name, found in wanted.items():
@@ -77,14 +106,6 @@ def command(
         if name == "direct":
             curve = error_curve(errors).tolist()
             known[0, indices[chosen]] = errors
-    result["best"] = min(entry["mean"] for entry in result.values())
-    result["coverage"] = 100 * coverage(answer)
-    result["valid"] = 100 * float(answer.valid.mean())
-    missing = read_missing_npz(truth) if truth.suffix.lower() == ".npz" else None
-    if missing is not None and wanted["direct"] is not None:
-        scores = asdict(overlap_scores(answer.valid, wanted["direct"][0], missing))
-        result["overlap"] = {name: None if share is None else 100 * share for name, share in scores.items()}
-    result["curve"] = curve
-    emit(result, as_json)
-    title = f"{map_file.name}: {source.name} → {target.name}"
-    write_views(answer, **shown, errors=known, title=title, names=(source.name, target.name))
+            if candidates:
+                known = errors_of_maps(answer, true[chosen], indices[chosen])
+    return result, curve, known

@@ -15,6 +15,8 @@ from gmds.cli.view_options import up_option
 
 if TYPE_CHECKING:
     from geodesics import Mesh
+    from geodesics.arrays import Floats
+    from gmds.correspondence import Correspondence
     from gmds.maps.made_with import NamedPair
 
 FILE = click.Path(path_type=Path)
@@ -26,6 +28,7 @@ FILE = click.Path(path_type=Path)
 @click.option("--target", required=True, type=FILE, help="Mesh the map ends on.")
 @click.option("--landmarks", type=FILE, multiple=True, help="Landmarks to begin with: of SOURCE, then of TARGET.")
 @space_option
+@click.option("--truth", type=FILE, help="Where source vertices should go, as for `gmds evaluate`: shows errors.")
 @up_option
 @click.option("--port", default=0, type=click.IntRange(0, 65535), help="Port to listen on; a free one unless given.")
 @click.option("--no-browser", is_flag=True, help="Print the link, open nothing.")
@@ -35,10 +38,11 @@ def command(map_file: Path, source: Path, target: Path, no_browser: bool, **opti
     \b
       gmds view map.npz --source dog.ply --target wolf.off
       gmds view map.npz --source dog.ply --target wolf.off --landmarks dog.csv --landmarks wolf.csv
+      gmds view map.npz --source dog.ply --target wolf.off --truth truth.npz
 
-    On the page landmarks are placed on both surfaces, named, moved and deleted; what is wrong is painted over; "Match
-    again" finds another map with what was placed, and shows it beside the one before. Landmarks are saved as .mrk.json
-    or .csv, a map as map.npz.
+    The page shows the map and its candidates, as that of `gmds match --report` does. Landmarks are placed on both
+    surfaces, named, moved and deleted; what is wrong is painted over; "Match again" finds another map with what was
+    placed, and shows it beside the one before. Landmarks are saved as .mrk.json or .csv, a map as map.npz.
 
     The page is served on 127.0.0.1; the link holds a token, without which nothing is answered. What was placed is lost
     with Ctrl-C unless it was saved.
@@ -53,8 +57,8 @@ def command(map_file: Path, source: Path, target: Path, no_browser: bool, **opti
     given = _landmarks(options["landmarks"], options["space"], meshes, (source, target))
     names = source.name, target.name
     title = f"{map_file.name}: {source.name} → {target.name}"
-    up = upwards(options["up"], source.name)
-    place = Workplace(answer, names, title=title, up=up, landmarks=given, space=options["space"])
+    up, errors = upwards(options["up"], source.name), _errors(answer, options["truth"])
+    place = Workplace(answer, names, title=title, up=up, landmarks=given, errors=errors, space=options["space"])
     with PageServer(place, options["port"]) as server:
         click.echo(server.link)
         note("open this link in a browser of this machine; Ctrl-C ends it")
@@ -62,6 +66,19 @@ def command(map_file: Path, source: Path, target: Path, no_browser: bool, **opti
             click.launch(server.link)
         server.serve_until_interrupted()
         note("ended")
+
+
+def _errors(answer: Correspondence, truth: Path | None) -> Floats | None:
+    """Of the map and its candidates, at the points that `gmds evaluate` judges on."""
+    from gmds.benchmarking.truth_files import read_truth
+    from gmds.evaluation import errors_of_maps, protocol_subset
+
+    found = None if truth is None else read_truth(truth, answer.source, answer.target)
+    if found is None:
+        return None
+    vertices, true = found
+    chosen = protocol_subset(len(vertices))
+    return errors_of_maps(answer, true[chosen], vertices[chosen])
 
 
 def _landmarks(

@@ -6,17 +6,20 @@ import signal
 import subprocess
 import sys
 import urllib.request
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from pages import page_data
 from places import ROOT
 from swapped import swapped_pair
 
 from geodesics import write_mesh
 from gmds.cli import main
 from gmds.landmarks.files import Landmarks, write_landmarks
+from gmds.maps.point_map import Candidate
 
 
 @pytest.fixture(scope="module")
@@ -72,3 +75,28 @@ def test_landmarks_of_two_files_are_paired_by_name(folder: Path, monkeypatch: py
     there = place.edits.on(1, place.maps[0].target, place.drawn[1])
     assert np.allclose(there.positions, place.maps[0].target.vertices[[5]], atol=1e-5)
     assert CliRunner().invoke(main, ["view", *files, *(3 * ["--landmarks", "a.csv"])]).exit_code == 2
+
+
+def test_candidates_of_the_file_are_shown_with_their_errors(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """All that the page tells of a candidate comes from the file of the map."""
+    seen = []
+
+    def serve(server: object) -> None:
+        seen.append(server)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("gmds.viewer.server.PageServer.serve_forever", serve)
+    monkeypatch.chdir(folder)
+    pair = swapped_pair(300)
+    others = (Candidate(pair.true, 0.01, 0.9), Candidate(pair.wrong.points, 0.3, -0.9))
+    replace(pair.wrong, candidates=others).save(folder / "several.npz")
+    rows = np.arange(pair.wrong.source.n_vertices)
+    np.savez(folder / "truth.npz", src=rows, gt=pair.true.nearest_vertices())
+    files = ["several.npz", "--source", "a.off", "--target", "b.off", "--no-browser", "--truth", "truth.npz"]
+    done = CliRunner().invoke(main, ["view", *files])
+    assert done.exit_code == 0, done.output
+    (folder / "page.html").write_text(seen[0].workplace.page())  # type: ignore[attr-defined]
+    best, right, mirrored = page_data(folder / "page.html")["maps"]
+    assert right["name"] == "Candidate 1, not mirrored" and mirrored["name"] == "Candidate 2, mirrored"
+    assert right["told"]["cards"][0] == ["0.01", "stress (small is good)", "stress"]
+    assert right["curve"][0] < 1 and right["curve"][-1] == 1 and best["curve"][-1] < 1
