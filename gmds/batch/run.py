@@ -185,9 +185,9 @@ class _Run:
         self.pairs[record.source, record.target] = record
         self.manifest.tell("pair", event(record))
         share = len(self.pairs) / len(self.collection.pairs)
-        self.progress(
-            f"{len(self.pairs)} of {len(self.collection.pairs)} pairs", MEASURING + (1 - MEASURING - CYCLES) * share
-        )
+        done = f"{len(self.pairs)} of {len(self.collection.pairs)} pairs"
+        told = f"{done}, {record.source} -> {record.target}: {record.status}"
+        self.progress(told, MEASURING + (1 - MEASURING - CYCLES) * share)
 
     def result(self) -> Batch:
         """How things stand."""

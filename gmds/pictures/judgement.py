@@ -11,11 +11,15 @@ from geodesics.arrays import Floats
 from geodesics.errors import BadArgument
 from gmds.maps.growth import growth_of
 from gmds.maps.point_map import PointMap
-from gmds.pictures.colours import nearest_known, shown_range, symmetric_reach
+from gmds.pictures.colours import nearest_known
+from gmds.pictures.scales import SIGNED, range_of
 
 
 class Judgement(NamedTuple):
-    """What the third view shows of a map: what it is called, values (n,), the range, the label of the bar."""
+    """What the third view shows of a map: what it is called, values (n,), the range, the label of the bar.
+
+    Ranges are those of `gmds.pictures.scales`, so that two pictures, or a picture and a page, can be compared.
+    """
 
     caption: str
     values: Floats
@@ -29,12 +33,10 @@ def judgement(answer: PointMap, errors: ArrayLike | None, show: str) -> Judgemen
     if show not in ("doubt", "growth"):
         raise BadArgument(f"a picture shows doubt or growth, not {show!r}")
     if errors is not None:
-        values = nearest_known(answer.source, errors)
-        return Judgement("error", values, shown_range(values), "error / √area")
+        return Judgement("error", nearest_known(answer.source, errors), range_of("error"), "error / √area")
     if show == "growth":
-        values = growth_of(answer).relative
-        reach = symmetric_reach(values)
-        return Judgement("growth", values, (-reach, reach), "log of the change of length", signed=True)
+        values, signed = growth_of(answer).relative, "growth" in SIGNED
+        return Judgement("growth", values, range_of("growth"), "log of the change of length", signed)
     if np.isnan(answer.confidence).all():
-        return Judgement("distortion", answer.distortion, shown_range(answer.distortion), "share of lengths")
-    return Judgement("doubt", 1 - answer.confidence, (0.0, 1.0), "1 less the confidence")
+        return Judgement("distortion", answer.distortion, range_of("distortion"), "share of lengths")
+    return Judgement("doubt", 1 - answer.confidence, range_of("confidence"), "1 less the confidence")

@@ -27,10 +27,11 @@ from gmds.pictures.colours import (
     value_colours,
 )
 from gmds.pictures.matching_colours import matching_colours
+from gmds.pictures.scales import FINE, SIGNED, TOPS
 from gmds.report.candidates import maps_of
 from gmds.report.drawing import Drawing
 from gmds.report.landmarks import Both, places
-from gmds.report.modes import FINE, SIGNED, TOPS, modes
+from gmds.report.modes import modes
 from gmds.report.packing import levels, small
 from gmds.report.told import told
 

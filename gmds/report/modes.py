@@ -10,12 +10,9 @@ import numpy as np
 from geodesics.arrays import Floats
 from gmds.maps.words import WORDS
 from gmds.pictures.colours import few_known
+from gmds.pictures.scales import FINE, SIGNED, TOPS
 from gmds.report.packing import levels
 
-# where fixed scales end: conventions, 1 is certainty, 0.69 twice as long
-TOPS = {"confidence": 1.0, "distortion": 0.5, "growth": 0.69, "error": 0.25}
-FINE = {"error": 0.1}  # where scales may end as well: the other bound of the protocol, for maps that are good
-SIGNED = ("growth",)  # scales that begin as far below 0 as they end above
 UNMATCHED_COLOUR = (0.93, 0.60, 0.20)  # sRGB, orange: without a counterpart
 MATCHED_COLOUR = (0.28, 0.47, 0.72)  # sRGB, blue: with one
 MATCH = (

@@ -19,11 +19,14 @@ from gmds.landmarks.checking import place_landmarks
 from gmds.pictures.camera import alignment, broadside
 from gmds.pictures.colours import BARE, MISSING, css, label_colours, position_colours, value_colours
 from gmds.pictures.figure import FORMATS
+from gmds.pictures.judgement import judgement
 from gmds.pictures.named import AWAY, HIGH, LETTER, Box, Mark, free_place
 from gmds.pictures.offscreen import offscreen
 from gmds.pictures.panels import map_panels, write_picture
+from gmds.pictures.scales import TOPS
 from gmds.pictures.software import Shot, render, software, view_rotation
 from gmds.pictures.values import INK, write_values
+from gmds.report.modes import modes
 from gmds.shapes import quadruped, truth
 
 
@@ -347,3 +350,19 @@ def test_landmarks_are_balls_with_names_where_they_can_be_seen(answer: Correspon
         for _, x, y, _ in panel.marks:
             assert image[int(y), int(x)].max() < 0.3, "the ball is dark"
     assert not panels[2].marks
+
+
+@pytest.mark.parametrize("scale", [0.01, 1.0])
+def test_scales_of_pictures_end_where_those_of_pages_do(scale: float) -> None:
+    """Whatever the values are, so that two maps can be compared."""
+    mesh = icosphere(1)
+    points = SurfacePoints.at_vertices(mesh, np.arange(mesh.n_vertices))
+    values = scale * np.linspace(0, 0.9, mesh.n_vertices)
+    answer = Correspondence.from_points(mesh, points, distortion=values)
+    page = {mode["key"]: mode for mode in modes(list(TOPS))}
+    shown = {"distortion": judgement(answer, None, "doubt"), "error": judgement(answer, values, "doubt")}
+    shown["growth"] = judgement(answer, None, "growth")
+    shown["confidence"] = judgement(replace(answer, confidence=values), None, "doubt")
+    for key, one in shown.items():
+        high = page[key]["high"]
+        assert one.limits == (-high if page[key]["signed"] else 0, high), key

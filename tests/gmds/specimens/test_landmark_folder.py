@@ -43,6 +43,8 @@ def done(tmp_path_factory: pytest.TempPathFactory) -> Done:
     told = gmds_landmarks(folder, out)
     assert told.exit_code == 3, told.output  # as one is left out
     assert "d_broken" in told.stderr and "3 of 4 pairs" in told.stderr and json.loads(told.stdout)["specimens"] == 3
+    lines = [line for line in told.stderr.splitlines() if " pairs, " in line]
+    assert len(lines) == 4 and sum("d_broken: failed" in line for line in lines) == 1, "a line a pair, by its name"
     return out, folder, template, walking, marks
 
 
