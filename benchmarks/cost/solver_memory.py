@@ -13,7 +13,6 @@ taken off. Linux alone tells this. CPU seconds are of one thread. Writes results
 from __future__ import annotations
 
 import argparse
-import csv
 import json
 import os
 import subprocess
@@ -29,6 +28,7 @@ from benchmarks.cost.solver_cost import ONE, animal, placed
 from benchmarks.markdown import table
 from benchmarks.memory import peak_megabytes
 from benchmarks.places import RESULTS
+from gmds.files.table import write_table
 from gmds.mds.losses import LeastSquares
 from gmds.mds.many_samples import HEADS, MANY, pairs_asked
 from gmds.shapes import quadruped
@@ -154,10 +154,7 @@ def main() -> None:
             rows.append(in_a_process(case))
             print(*rows[-1].values(), flush=True)
     if not options.only:
-        with ROWS.open("w", encoding="utf-8", newline="") as file:
-            writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(rows)
+        write_table(ROWS, list(rows[0]), [list(row.values()) for row in rows])
         PAGE.write_text(page(rows), encoding="utf-8")
 
 

@@ -1,9 +1,8 @@
-"""map.npz, versions 1 and 2: a map on disk, readable with numpy alone, never pickled.
+"""map.npz, version 1: a map on disk, readable with numpy alone, never pickled.
 
 Members: `face` int32 (n,), `barycentric` float64 (n, 3), `vertex` int64 (n,), `valid` bool (n,),
 `distortion` float32 (n,), `meta` UTF-8 JSON bytes as uint8; of a map that was rated also `confidence` float32 (n,),
-which files of older releases lack. A map with candidates has those of `gmds.maps.candidate_rows` too, and is of
-version 2; one without is of version 1, which older releases read.
+which files of older releases lack. A map with candidates has those of `gmds.maps.candidate_rows` too.
 """
 
 from __future__ import annotations
@@ -26,7 +25,7 @@ from gmds.errors import MapArray, MapMembers, MapMismatch, MapVersion, PickledMe
 from gmds.files.npz import DAMAGED, PickledArray, opened, read_header, read_member
 from gmds.maps import candidate_rows
 
-FORMAT, VERSIONS = "gmds-map", (1, 2)  # without candidates, with them
+FORMAT, VERSION = "gmds-map", 1
 DTYPES = {"face": "<i4", "barycentric": "<f8", "vertex": "<i8", "valid": "|b1", "distortion": "<f4", "meta": "|u1"}
 OPTIONAL = {"confidence": "<f4"}
 KNOWN = DTYPES | OPTIONAL | candidate_rows.DTYPES
@@ -48,8 +47,7 @@ def write_map(
     path: str | os.PathLike[str], arrays: Arrays, meta: Mapping[str, Any], source: Mesh, target: Mesh
 ) -> None:
     """Write the arrays and the meta data atomically; raises `OSError`, or `TypeError` when meta is not JSON."""
-    version = VERSIONS[candidate_rows.COUNTED in arrays]
-    head = {"format": FORMAT, "version": version, "source": fingerprint(source), "target": fingerprint(target)}
+    head = {"format": FORMAT, "version": VERSION, "source": fingerprint(source), "target": fingerprint(target)}
     text = json.dumps({**meta, **head}, sort_keys=True, allow_nan=False, default=_plain).encode("utf-8")
     members = {**arrays, "meta": np.frombuffer(text, dtype=np.uint8)}
     with atomic_write(path) as stream:
@@ -154,9 +152,8 @@ def _read_meta(path: Path, archive: zipfile.ZipFile) -> dict[str, Any]:
         raise MapArray(f"{path}: meta is not UTF-8 JSON ({error})") from error
     if not isinstance(meta, dict) or meta.get("format") != FORMAT:
         raise MapVersion(f"{path} is not a {FORMAT} file")
-    if meta.get("version") not in VERSIONS:
-        known = " and ".join(map(str, VERSIONS))
-        raise MapVersion(f"{path} has version {meta.get('version')!r}; this release reads versions {known}")
+    if meta.get("version") != VERSION:
+        raise MapVersion(f"{path} has version {meta.get('version')!r}; this release reads version {VERSION}")
     return meta
 
 

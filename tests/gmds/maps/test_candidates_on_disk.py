@@ -1,4 +1,4 @@
-"""map.npz with candidates, version 2: they come back, as near as looking needs, and nothing wrong gets in."""
+"""map.npz with candidates: they come back, as near as looking needs, and nothing wrong gets in."""
 
 from __future__ import annotations
 
@@ -43,12 +43,12 @@ def test_what_was_read_is_written_again_byte_for_byte(tmp_path: Path) -> None:
 
 def test_numpy_alone_reads_the_documented_members(parts: dict[str, Any]) -> None:
     n = SOURCE.n_vertices
-    assert json.loads(parts["meta"].tobytes())["version"] == 2
+    assert json.loads(parts["meta"].tobytes())["version"] == 1
     assert {name: parts[name].dtype.str for name in DTYPES} == DTYPES
     assert [parts[name].shape for name in DTYPES] == [(3, n), (3, n, 2), (3,), (3,)]
 
 
-def test_a_map_without_candidates_is_still_of_version_1(tmp_path: Path) -> None:
+def test_a_map_without_candidates_is_as_it_was(tmp_path: Path) -> None:
     make_answer().save(tmp_path / "map.npz")
     assert json.loads(members(tmp_path / "map.npz")["meta"].tobytes())["version"] == 1
     assert load(tmp_path / "map.npz").candidates == ()
@@ -88,7 +88,7 @@ def test_a_newer_version_is_told_before_members_that_are_not_known(tmp_path: Pat
     meta = {**json.loads(parts["meta"].tobytes()), "version": 3}
     parts["meta"] = np.frombuffer(json.dumps(meta).encode(), np.uint8)
     np.savez(tmp_path / "bad.npz", **parts, invention=np.zeros(3))
-    with pytest.raises(MapVersion, match=r"E213.*version 3; this release reads versions 1 and 2"):
+    with pytest.raises(MapVersion, match=r"E213.*version 3; this release reads version 1"):
         load(tmp_path / "bad.npz")
 
 
