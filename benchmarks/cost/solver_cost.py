@@ -141,6 +141,13 @@ def measured(case: str) -> dict[str, Any]:
     return tabulated(int(kind)) if what == "table" else solved(int(what), kind, at_once=bool(more))
 
 
+def in_a_process(script: str, case: str) -> dict[str, Any]:
+    """What a script prints of one case, in a process of its own on one thread."""
+    command = [sys.executable, "-m", script, "--case", case]
+    told = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env={**os.environ, **ONE})
+    return dict(json.loads(told.stdout))
+
+
 def main() -> None:
     """Run the cases, write the page."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -153,9 +160,7 @@ def main() -> None:
     found = {}
     for case in CASES:
         if options.only in case:
-            command = [sys.executable, "-m", "benchmarks.cost.solver_cost", "--case", case]
-            told = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env={**os.environ, **ONE})
-            found[case] = json.loads(told.stdout)
+            found[case] = in_a_process("benchmarks.cost.solver_cost", case)
             print(case, found[case], flush=True)
     if not options.only:
         PAGE.write_text(page(found), encoding="utf-8")

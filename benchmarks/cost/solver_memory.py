@@ -14,9 +14,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
-import subprocess
-import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -24,7 +21,7 @@ from typing import Any
 
 import geodesics
 import gmds
-from benchmarks.cost.solver_cost import ONE, animal, placed
+from benchmarks.cost.solver_cost import animal, in_a_process, placed
 from benchmarks.markdown import table
 from benchmarks.memory import peak_megabytes
 from benchmarks.places import RESULTS
@@ -127,11 +124,9 @@ def page(rows: list[dict[str, str]]) -> str:
     )
 
 
-def in_a_process(case: str) -> dict[str, str]:
-    """One case, in a process of its own, as a row."""
-    command = [sys.executable, "-m", "benchmarks.cost.solver_memory", "--case", case]
-    told = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env={**os.environ, **ONE})
-    found = json.loads(told.stdout)
+def row(case: str) -> dict[str, str]:
+    """One case, in a process of its own."""
+    found = in_a_process("benchmarks.cost.solver_memory", case)
     what, count, vertices = case.split()
     numbers = {"megabytes": f"{found['megabytes']:.0f}", "cpu": f"{found['cpu']:.1f}", "base": f"{found['base']:.0f}"}
     stress = f"{found['stress']:.3g}" if "stress" in found else ""
@@ -151,7 +146,7 @@ def main() -> None:
     rows = []
     for case in CASES:
         if options.only in case:
-            rows.append(in_a_process(case))
+            rows.append(row(case))
             print(*rows[-1].values(), flush=True)
     if not options.only:
         write_table(ROWS, list(rows[0]), [list(row.values()) for row in rows])

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import os
 import zipfile
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
-from known_maps import SOURCE, TARGET, load, make_answer
+from known_maps import SOURCE, TARGET, load, make_answer, with_candidates
 
 from geodesics import FormatError
+from gmds import Correspondence
 from gmds.errors import MapArray
 from gmds.maps.npz_format import write_map
 
@@ -24,10 +26,11 @@ def test_every_truncation_is_noticed(tmp_path: Path) -> None:
             load(tmp_path / "cut.npz")
 
 
-def test_flipped_bytes_never_get_through_unnoticed(tmp_path: Path) -> None:
-    answer = make_answer()
+@pytest.mark.parametrize("make", [make_answer, with_candidates])
+def test_flipped_bytes_never_get_through_unnoticed(tmp_path: Path, make: Callable[[], Correspondence]) -> None:
+    answer = make()
     answer.save(tmp_path / "map.npz")
-    whole = bytearray((tmp_path / "map.npz").read_bytes())
+    whole, sound = bytearray((tmp_path / "map.npz").read_bytes()), load(tmp_path / "map.npz")
     for position in np.random.default_rng(1).integers(0, len(whole), 600):
         changed = whole.copy()
         changed[position] ^= 0x41
@@ -38,6 +41,8 @@ def test_flipped_bytes_never_get_through_unnoticed(tmp_path: Path) -> None:
             continue
         assert (again.points.face == answer.points.face).all()  # only unused bytes of the archive changed
         assert (again.points.barycentric == answer.points.barycentric).all()
+        for mine, theirs in zip(again.candidates, sound.candidates, strict=True):
+            assert (mine.points.barycentric == theirs.points.barycentric).all()
 
 
 def test_a_missing_file_is_an_os_error(tmp_path: Path) -> None:

@@ -20,6 +20,7 @@ from geodesics import write_mesh
 from gmds.cli import main
 from gmds.landmarks.files import Landmarks, write_landmarks
 from gmds.maps.point_map import Candidate
+from gmds.viewer.server import PageServer
 
 
 @pytest.fixture(scope="module")
@@ -32,6 +33,20 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     write_landmarks(place / "a.csv", Landmarks(("nose", "tail"), wrong.source.vertices[[3, 40]]))
     write_landmarks(place / "b.csv", Landmarks(("tail", "ear"), wrong.target.vertices[[5, 60]]))
     return place
+
+
+@pytest.fixture
+def servers(folder: Path, monkeypatch: pytest.MonkeyPatch) -> list[PageServer]:
+    """In the folder, where servers end as soon as they serve: those that did."""
+    seen: list[PageServer] = []
+
+    def serve(server: PageServer) -> None:
+        seen.append(server)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(PageServer, "serve_forever", serve)
+    monkeypatch.chdir(folder)
+    return seen
 
 
 def test_it_answers_until_it_is_interrupted(folder: Path) -> None:
@@ -54,19 +69,11 @@ def test_it_answers_until_it_is_interrupted(folder: Path) -> None:
     assert running.returncode == 0 and told.splitlines()[-1] == "ended"
 
 
-def test_landmarks_of_two_files_are_paired_by_name(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    seen = []
-
-    def serve(server: object) -> None:
-        seen.append(server)
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("gmds.viewer.server.PageServer.serve_forever", serve)
-    monkeypatch.chdir(folder)
+def test_landmarks_of_two_files_are_paired_by_name(folder: Path, servers: list[PageServer]) -> None:
     files = ["map.npz", "--source", "a.off", "--target", "b.off", "--no-browser"]
     done = CliRunner().invoke(main, ["view", *files, "--landmarks", "a.csv", "--landmarks", "b.csv"])
     assert done.exit_code == 0, done.output
-    place = seen[0].workplace  # type: ignore[attr-defined]
+    place = servers[0].workplace
     assert [(mark.name, [one is not None for one in mark.at]) for mark in place.edits.landmarks] == [
         ("nose", [True, False]),
         ("tail", [True, True]),
@@ -77,16 +84,8 @@ def test_landmarks_of_two_files_are_paired_by_name(folder: Path, monkeypatch: py
     assert CliRunner().invoke(main, ["view", *files, *(3 * ["--landmarks", "a.csv"])]).exit_code == 2
 
 
-def test_candidates_of_the_file_are_shown_with_their_errors(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_candidates_of_the_file_are_shown_with_their_errors(folder: Path, servers: list[PageServer]) -> None:
     """All that the page tells of a candidate comes from the file of the map."""
-    seen = []
-
-    def serve(server: object) -> None:
-        seen.append(server)
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("gmds.viewer.server.PageServer.serve_forever", serve)
-    monkeypatch.chdir(folder)
     pair = swapped_pair(300)
     others = (Candidate(pair.true, 0.01, 0.9), Candidate(pair.wrong.points, 0.3, -0.9))
     replace(pair.wrong, candidates=others).save(folder / "several.npz")
@@ -95,7 +94,7 @@ def test_candidates_of_the_file_are_shown_with_their_errors(folder: Path, monkey
     files = ["several.npz", "--source", "a.off", "--target", "b.off", "--no-browser", "--truth", "truth.npz"]
     done = CliRunner().invoke(main, ["view", *files])
     assert done.exit_code == 0, done.output
-    (folder / "page.html").write_text(seen[0].workplace.page())  # type: ignore[attr-defined]
+    (folder / "page.html").write_text(servers[0].workplace.page())
     best, right, mirrored = page_data(folder / "page.html")["maps"]
     assert right["name"] == "Candidate 1, not mirrored" and mirrored["name"] == "Candidate 2, mirrored"
     assert right["told"]["cards"][0] == ["0.01", "stress (small is good)", "stress"]
