@@ -40,7 +40,7 @@ import mathml  # noqa: E402
 import gmds  # noqa: E402
 
 GENERATED = {
-    "docs/reference/command-line": generated.every_command,
+    "docs/reference/command-line": generated.every_section,
     "docs/reference/errors": generated.every_code,
     "docs/reference/gmds": lambda: generated.summary_of("gmds"),
     "docs/reference/geodesics": lambda: generated.summary_of("geodesics"),
@@ -92,8 +92,12 @@ def complete(_app: Any, docname: str, source: list[str]) -> None:
     """What is generated comes below what the page says; pages of tables take the place of the list of headings."""
     if docname in GENERATED:
         source[0] += GENERATED[docname]()
-    if docname.startswith(("docs/reference/gmds/", "docs/reference/geodesics/")):
-        source[0] = generated.with_summary(source[0])
+    folder, _, page = docname.removeprefix("docs/reference/").partition("/")
+    if folder == "command-line" and page:
+        source[0] += generated.help_of(page)
+    elif folder in ("gmds", "geodesics") and page:
+        divided = generated.summary_of(f"{folder}/{page}", places=True)
+        source[0] = source[0] + divided if divided else generated.with_summary(source[0])
     if docname.startswith(WIDE):
         source[0] = f"---\nhide-toc: true\n---\n{source[0]}"
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import importlib
 import pkgutil
 import re
 import runpy
@@ -149,25 +148,6 @@ def test_files_and_modules_that_a_page_names_are_there(page: Path) -> None:
         with warnings.catch_warnings():
             warnings.simplefilter("error")  # a path that has moved
             pkgutil.resolve_name(name)
-
-
-@pytest.mark.parametrize("package", ["geodesics", "gmds"])
-def test_every_public_name_is_in_the_reference(package: str) -> None:
-    pages = (ROOT / "docs" / "reference" / package).glob("*.md")
-    text = "\n".join(page.read_text(encoding="utf-8") for page in pages)
-    listed = re.findall(rf"^\.\. auto(?:function|class):: {package}\.(\w+)$", text, re.MULTILINE)
-    assert sorted(listed) == importlib.import_module(package).__all__
-
-
-@pytest.mark.parametrize("package", ["gmds", "geodesics"])
-def test_formulas_in_summary_tables_are_formulas(package: str) -> None:
-    """What is TeX is said to be mathematics, and bars of a formula do not end a cell."""
-    summary = runpy.run_path(str(ROOT / "docs" / "generated.py"))["summary_of"](package)
-    assert "{math}`" in summary
-    rows = [line for line in summary.splitlines() if line.startswith("| {py:")]
-    for row in rows:
-        assert len(re.findall(r"(?<!\\)\|", row)) == 3, row
-        assert not re.search(r"\\[a-z]{2,}", re.sub(r"\{math\}`[^`]*`", "", row)), row
 
 
 def test_no_two_errors_have_the_same_code() -> None:
