@@ -7,6 +7,7 @@ import gzip
 import json
 import os
 import shutil
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from html.parser import HTMLParser
@@ -85,6 +86,28 @@ def browser() -> Iterator[Any]:
             pytest.skip(f"chromium does not start: {str(error).splitlines()[0]}")
         yield running
         running.close()
+
+
+@contextmanager
+def served(running: Any, place: Any, width: int = 1366, height: int = 650) -> Iterator[Any]:
+    """The page of a workplace of `gmds.viewer`, in a window of that many pixels; it must say nothing on the console."""
+    from gmds.viewer.server import PageServer
+
+    with PageServer(place) as server:
+        thread = threading.Thread(target=server.serve_forever, args=(0.02,))
+        thread.start()
+        context = running.new_context(viewport={"width": width, "height": height})
+        page, said = context.new_page(), []
+        page.set_default_timeout(PATIENCE)
+        page.on("console", lambda message: said.append(message.text))
+        page.on("pageerror", lambda error: said.append(str(error)))
+        page.goto(server.link)
+        page.wait_for_selector("body[data-ready=yes]")
+        yield page
+        context.close()
+        server.shutdown()
+        thread.join()
+        assert said == []
 
 
 class Visit:

@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 import json
-import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from pages import PATIENCE, browser
+from pages import browser, served
 from swapped import SwappedPair, swapped_pair
 
 from gmds import Correspondence, geodesic_error
 from gmds.landmarks.files import read_landmarks
-from gmds.viewer.server import PageServer
 from gmds.viewer.workplace import Workplace
 
 ON_SCREEN = """([side, vertex]) => {
@@ -41,26 +38,6 @@ def running() -> Iterator[Any]:
         yield found
 
 
-@contextmanager
-def opened(running: Any, place: Workplace) -> Iterator[Any]:
-    """The page of a workplace, in a browser of 1366 x 650 pixels; it must say nothing on the console."""
-    with PageServer(place) as server:
-        thread = threading.Thread(target=server.serve_forever, args=(0.02,))
-        thread.start()
-        context = running.new_context(viewport={"width": 1366, "height": 650})
-        page, said = context.new_page(), []
-        page.set_default_timeout(PATIENCE)
-        page.on("console", lambda message: said.append(message.text))
-        page.on("pageerror", lambda error: said.append(str(error)))
-        page.goto(server.link)
-        page.wait_for_selector("body[data-ready=yes]")
-        yield page
-        context.close()
-        server.shutdown()
-        thread.join()
-        assert said == []
-
-
 def click_on(page: Any, side: int, vertex: int) -> None:
     page.mouse.click(*page.evaluate(ON_SCREEN, [side, vertex]))
 
@@ -81,7 +58,7 @@ def leg_errors(pair: SwappedPair, answer: Correspondence) -> np.ndarray:
 
 def test_swapped_legs_are_corrected_and_saved(pair: SwappedPair, running: Any, tmp_path: Path) -> None:
     assert leg_errors(pair, pair.wrong).mean() > 0.2
-    with opened(running, Workplace(pair.wrong, ("dog.ply", "wolf.off"))) as page:
+    with served(running, Workplace(pair.wrong, ("dog.ply", "wolf.off"))) as page:
         page.click("#tool-place")
         for paw in pair.paws:
             for side, vertex in enumerate(paw):
@@ -114,7 +91,7 @@ def test_swapped_legs_are_corrected_and_saved(pair: SwappedPair, running: Any, t
 def test_landmarks_are_moved_named_deleted_and_brought_back(pair: SwappedPair, running: Any) -> None:
     place = Workplace(pair.wrong, ("dog.ply", "wolf.off"))
     told = "() => JSON.stringify(gmdsPage.landmarks)"
-    with opened(running, place) as page:
+    with served(running, place) as page:
         page.click("#tool-place")
         stage = page.locator("#stage").bounding_box()
         vertex = int(np.linalg.norm(pair.wrong.source.vertices - [0, -0.3, 1], axis=1).argmin())  # on the flank
@@ -152,7 +129,7 @@ def test_landmarks_are_moved_named_deleted_and_brought_back(pair: SwappedPair, r
 def test_what_is_painted_as_wrong_goes_elsewhere(pair: SwappedPair, running: Any, tmp_path: Path) -> None:
     """With the brush alone, without a landmark: the rest of the map is held, and the legs find their places."""
     place = Workplace(pair.wrong, ("dog.ply", "wolf.off"))
-    with opened(running, place) as page:
+    with served(running, place) as page:
         page.click("#tool-wrong")
         page.evaluate("() => { at('brush').value = 0.12; }")
         camera = page.evaluate("() => JSON.stringify(gmdsPage.scenes[0].camera)")
@@ -182,7 +159,7 @@ def test_matching_is_stopped_and_can_begin_again(pair: SwappedPair, running: Any
     monkeypatch.setattr("gmds.viewer.workplace.matched_again", endless)
     place = Workplace(pair.wrong, ("dog.ply", "wolf.off"))
     place.keep({"landmarks": [{"name": "a", "at": [[0, 0, 0], [0, 0, 0]]}], "wrong": []})
-    with opened(running, place) as page:
+    with served(running, place) as page:
         for count in (1, 2):
             page.click("#again")
             page.wait_for_function(
