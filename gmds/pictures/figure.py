@@ -36,6 +36,7 @@ class Panel(NamedTuple):
     """One part of a picture: its caption, what is drawn, and the range of its colour bar if it has one.
 
     The bar has a label, which says the unit; `signed` ones go from below 0 to as far above it. `marks` are names in it.
+    `beyond` says whether values are less than the bar's lower end, and whether they are more than its upper one.
     """
 
     caption: str
@@ -44,6 +45,7 @@ class Panel(NamedTuple):
     label: str = ""
     signed: bool = False
     marks: Sequence[Mark] = ()
+    beyond: tuple[bool, bool] = (False, False)
 
 
 def composed(panels: Sequence[Panel], images: Sequence[Floats], title: str = "", columns: int | None = None) -> Any:
@@ -128,3 +130,6 @@ def _colour_bar(figure: Any, axis: Any, panel: Panel) -> None:
     bar = figure.colorbar(ScalarMappable(Normalize(*(panel.limits or (0, 1))), ramp), cax=axis)
     bar.ax.tick_params(labelsize=8)
     bar.set_label(panel.label.replace("$", r"\$"), fontsize=8)
+    below, above = panel.beyond
+    for words, y, side in (("and less" if below else "", -0.02, "top"), ("and more" if above else "", 1.02, "bottom")):
+        bar.ax.text(0, y, words, transform=bar.ax.transAxes, va=side, fontsize=8)

@@ -17,6 +17,7 @@ from gmds.pictures.figure import Panel
 from gmds.pictures.judgement import judgement
 from gmds.pictures.matching_colours import matching_colours
 from gmds.pictures.named import marks_of
+from gmds.pictures.scales import beyond
 from gmds.pictures.software import Shot
 from gmds.pictures.values import coloured
 from gmds.pictures.writing import Renderer, write_panels
@@ -117,7 +118,8 @@ def map_panels(
         if errors is not None and len(known := few_known(np.asarray(errors, dtype=np.float64))):
             plain = np.tile(BARE, (shape.n_vertices, 1))
             shape, shown = with_balls(shape, plain, shape.vertices[known], shown[known])
-        panels.append(Panel(caption, Shot(shape, shown, view, pixels), limits, label, signed))
+        shot = Shot(shape, shown, view, pixels)
+        panels.append(Panel(caption, shot, limits, label, signed, beyond=beyond(values, limits)))
     return panels
 
 

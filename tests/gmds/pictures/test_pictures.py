@@ -23,7 +23,7 @@ from gmds.pictures.judgement import judgement
 from gmds.pictures.named import AWAY, HIGH, LETTER, Box, Mark, free_place
 from gmds.pictures.offscreen import offscreen
 from gmds.pictures.panels import map_panels, write_picture
-from gmds.pictures.scales import TOPS
+from gmds.pictures.scales import TOPS, beyond, range_of
 from gmds.pictures.software import Shot, render, software, view_rotation
 from gmds.pictures.values import INK, write_values
 from gmds.report.modes import modes
@@ -366,3 +366,13 @@ def test_scales_of_pictures_end_where_those_of_pages_do(scale: float) -> None:
     for key, one in shown.items():
         high = page[key]["high"]
         assert one.limits == (-high if page[key]["signed"] else 0, high), key
+
+
+@pytest.mark.parametrize(("largest", "said"), [(0.2, False), (0.25, False), (0.4, True)])
+def test_a_bar_says_when_values_go_on_beyond_its_end(largest: float, said: bool, tmp_path: Path) -> None:
+    mesh = icosphere(1)
+    answer = Correspondence.from_points(mesh, SurfacePoints.at_vertices(mesh, np.arange(mesh.n_vertices)))
+    write_picture(tmp_path / "errors.svg", answer, np.linspace(0, largest, mesh.n_vertices), pixels=120)
+    text = (tmp_path / "errors.svg").read_text(encoding="utf-8")
+    assert ("and more" in text) == said and "and less" not in text
+    assert beyond(np.array([-1.0, 0.1, np.nan]), range_of("growth")) == (True, False)
