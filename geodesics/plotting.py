@@ -22,6 +22,7 @@ PLAIN = "rgb(190,200,215)"
 POINT_COLOUR = "rgb(200,60,0)"
 POINT_SIZE = 5  # pixels
 LINE_WIDTH = 6  # pixels
+BAR = {"len": 0.85, "thickness": 18}  # of the height, so that its last number is not cut; pixels
 LIGHT = {"ambient": 0.55, "diffuse": 0.6, "specular": 0.1, "roughness": 0.8}
 
 
@@ -92,8 +93,7 @@ def plot(
     looks = {"lighting": LIGHT, "flatshading": False, "hovertemplate": "vertex %{text}<extra></extra>"}
     surface = go.Mesh3d(**_axes(mesh.vertices), **corners, text=np.arange(mesh.n_vertices), **looks)
     surface.update(_colours(values, mesh.n_vertices))
-    if label:
-        surface.update(colorbar={"title": {"text": label, "side": "right"}})
+    surface.update(colorbar={"title": {"text": label, "side": "right"}, **BAR})
     figure = go.Figure(surface)
     if points is not None:
         marker = {"size": POINT_SIZE, "color": POINT_COLOUR}

@@ -26,7 +26,8 @@ void main() {
     if (away > 0.5) discard;
     pixel = vec4(away > 0.36 ? vec3(1.0) : shade, 1.0);
   } else if (kind > 0.5) { // edges
-    pixel = vec4(vec3(0.1), 1.0) * 0.35;
+    bool dark = dot(shade, vec3(0.3, 0.6, 0.1)) < 0.2; // about the luminance, which dark blue is below
+    pixel = vec4(vec3(dark ? 0.9 : 0.1), 1.0) * 0.35;
   } else {
     vec3 n = normalize(gl_FrontFacing ? facing : -facing);
     float light = 0.56 + 0.46 * max(dot(n, normalize(back + 0.5 * up - 0.3 * right)), 0.0);

@@ -9,13 +9,20 @@ from gmds.report.page import drawings, page_text
 
 HEIGHT = 620  # pixels: the surfaces with what is above and below them; set by hand
 SHOW = """
+const ONE_COLUMN = 720; // pixels: what is narrower has one surface under the other, as report.css has it
 export default { render({ model, el }) {
   const frame = document.createElement("iframe");
   frame.setAttribute("sandbox", "allow-scripts allow-downloads");
   frame.setAttribute("title", "A map, to turn");
-  frame.style = `width: 100%; height: ${model.get("height")}px; border: 0`;
+  frame.style = "width: 100%; border: 0";
+  const narrow = () => el.clientWidth > 0 && el.clientWidth < ONE_COLUMN;
+  const fit = () => { frame.style.height = `${model.get("height") * (narrow() ? 1.5 : 1)}px`; };
+  fit();
+  const watch = new ResizeObserver(fit);
+  watch.observe(el);
   frame.srcdoc = model.get("page");
   el.append(frame);
+  return () => watch.disconnect();
 } };
 """
 

@@ -102,6 +102,9 @@ def test_with_anywidget_a_map_is_the_page(tmp_path: Path) -> None:
         frame.locator("body[data-ready=yes]").wait_for(timeout=60_000)
         assert frame.locator("#cards").inner_text().startswith("100.0 %")
         assert page.evaluate("document.querySelector('iframe').contentDocument") is None
+        for width, height in ((1000, 500), (390, 750)):  # one surface under the other takes more room
+            page.set_viewport_size({"width": width, "height": 800})
+            page.wait_for_function(f"document.querySelector('iframe').clientHeight === {height}")
 
 
 def test_without_anywidget_it_is_a_picture(monkeypatch: pytest.MonkeyPatch) -> None:

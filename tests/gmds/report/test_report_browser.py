@@ -247,6 +247,23 @@ def test_edges_are_drawn_where_faces_meet_and_nowhere_else(page: Any, file: Path
     assert len(rows) > 40 and np.median(inside) == 1 and np.median(along) < 0.85
 
 
+def test_edges_are_light_where_colours_are_dark(answer: Correspondence, running: Any, tmp_path: Path) -> None:
+    """Without errors everything is dark blue, on which dark lines cannot be seen."""
+    file = tmp_path / "exact.html"
+    write_report(file, answer, errors=np.zeros(1500))
+    visit = Visit(running, file)
+    page, surface = visit.page, page_data(file)["surfaces"][0]
+    places, faces = surface["vertices"].reshape(-1, 3), surface["faces"].reshape(-1, 3)
+    page.check("#modes input[value=error]", force=True)
+    page.evaluate("() => gmdsPage.scenes[0].look(zoomed(gmdsPage.scenes[0].camera, 0.3))")
+    edges = places[faces[::6, :2]].mean(axis=1)
+    edges = edges[in_front(page, 0, edges)]
+    before = painted_at(page, 0, edges).sum(axis=1)
+    page.check("#wireframe")
+    assert len(edges) > 40 and np.median(painted_at(page, 0, edges).sum(axis=1) / before) > 1.3
+    visit.context.close()
+
+
 def test_switching_map_and_colours(answer: Correspondence, page: Any, file: Path) -> None:
     data = page_data(file)
     painted = "() => Array.from(gmdsPage.scenes[0].painted)"
