@@ -45,13 +45,15 @@ def content(
     drawn: Both,
     names: Sequence[str],
     landmarks: Sequence[NamedPair] | None = None,
+    later: Sequence[str] = (),
 ) -> dict[str, Any]:
     """All that the script of the page reads.
 
-    `errors` (k, n): of the map and of its candidates, as far as they are known, NaN where the truth is not.
+    `errors` (k, n): of the map and of its candidates, as far as they are known, NaN where the truth is not; `later`:
+    what maps may have by which to colour them that are not there yet.
     """
     maps = maps_content(answer, errors, drawn)
-    known = [key for key in TOPS if any(key in one["values"] for one in maps)]
+    known = [key for key in TOPS if key in later or any(key in one["values"] for one in maps)]
     given = landmarks_of(answer) if landmarks is None else landmarks
     return {
         "surfaces": [_surface(*one) for one in zip((answer.source, answer.target), drawn, names, strict=True)],

@@ -92,13 +92,17 @@ def write_report(
 
 
 class Work(NamedTuple):
-    """What a page to work in has that one to look at has not: scripts, style, controls, data, and whom it may ask."""
+    """What a page to work in has that one to look at has not: scripts, style, controls, data, and whom it may ask.
+
+    `colours` are ways of colouring that maps which are made there have, and the first perhaps has not.
+    """
 
     scripts: str = ""
     style: str = ""
     controls: str = ""
     data: Any = None
     policy: str = ""
+    colours: Sequence[str] = ()
 
 
 def drawings(answer: PointMap, up: Direction) -> tuple[Drawing, Drawing]:
@@ -119,7 +123,7 @@ def page_text(
 ) -> str:
     """The whole page; `errors` (k, n) of the map and of its first candidates."""
     work = work or Work()
-    data = {**content(answer, errors, drawn, names, landmarks), "work": work.data}
+    data = {**content(answer, errors, drawn, names, landmarks, work.colours), "work": work.data}
     script = "".join(map(_part, SCRIPTS)).replace("\nstart().catch", f"\n{work.scripts}\nstart().catch")
     ramp = ", ".join(css(value_colours(np.linspace(0, 1, 10), 0, 1)))
     signed = ", ".join(css(diverging_colours(np.linspace(-1, 1, 11), 1)))

@@ -27,6 +27,7 @@ from gmds.viewer.job import Job, Progress
 
 ENDINGS = (".mrk.json", ".csv")  # of landmarks that are saved
 LARGEST_TOLERANCE = 0.5  # root areas; a larger one says nothing
+COLOURS = ("confidence", "distortion", "growth")  # of maps that `match` makes
 
 
 class Workplace:
@@ -65,7 +66,7 @@ class Workplace:
         """The page as it is opened: with all maps so far and what was placed."""
         data = {**self.edits.as_data(), "maps": len(self.maps)}
         policy = " connect-src 'self';"
-        work = Work(scripts=SCRIPT, style=STYLE, controls=CONTROLS, data=data, policy=policy)
+        work = Work(scripts=SCRIPT, style=STYLE, controls=CONTROLS, data=data, policy=policy, colours=COLOURS)
         return page_text(self.maps[0], self.errors, self.drawn, self.title, self.names, landmarks=(), work=work)
 
     def keep(self, given: dict[str, Any]) -> dict[str, Any]:

@@ -73,8 +73,11 @@ def test_swapped_legs_are_corrected_and_saved(pair: SwappedPair, running: Any, t
         assert (
             page.locator("#beside option:checked").inner_text() == "Best map" and page.locator("#panel-2").is_visible()
         )
+        rated = page.locator("#modes input[value=confidence]")
+        assert rated.is_enabled(), "the map that was made is rated, the first is not"
         answer = Correspondence.load(saved(page, "map", tmp_path / "map.npz"), pair.wrong.source, pair.wrong.target)
         page.select_option("#map", index=0)
+        assert rated.is_disabled()
         old = Correspondence.load(saved(page, "map", tmp_path / "old.npz"), pair.wrong.source, pair.wrong.target)
         marks = [read_landmarks(saved(page, f".mrk.json {side}", tmp_path / f"{side}.mrk.json")) for side in (0, 1)]
     assert np.array_equal(old.points.face, pair.wrong.points.face)
