@@ -17,13 +17,15 @@ SHARE = 0.9  # of the free memory that one table may take. A convention: the res
 
 def table(rows: int, columns: int, what: str, instead: str) -> Floats:
     """An empty table (rows, columns) of float64. Raises `WouldExceedMemory` (E501) when it does not fit."""
-    needed = 8 * rows * columns
-    if needed > WORTH_ASKING and needed > (free := SHARE * available()):
-        raise WouldExceedMemory(
-            f"{what}, {rows} x {columns} numbers, need {needed / 1e9:.1f} GB, "
-            f"and {free / 1e9:.1f} GB are free; {instead}"
-        )
+    must_fit(rows * columns, f"{what}, {rows} x {columns} numbers,", instead)
     return np.empty((rows, columns))
+
+
+def must_fit(numbers: int, what: str, instead: str) -> None:
+    """Raise `WouldExceedMemory` (E501) when so many float64 do not fit."""
+    needed = 8 * numbers
+    if needed > WORTH_ASKING and needed > (free := SHARE * available()):
+        raise WouldExceedMemory(f"{what} need {needed / 1e9:.1f} GB, and {free / 1e9:.1f} GB are free; {instead}")
 
 
 def available() -> float:

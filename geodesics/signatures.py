@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from geodesics.arguments import real_numbers, whole_number
+from geodesics.arguments import real_number, real_numbers, whole_number
 from geodesics.arrays import Floats
 from geodesics.distance import as_points
 from geodesics.errors import BadArgument
@@ -16,6 +16,7 @@ from geodesics.moved_paths import names_moved
 from geodesics.points import SurfacePoints
 from geodesics.spectrum import Spectrum, as_spectrum
 
+TIME = "time (in units of the area of the surface)"
 TIMES = 64  # of a signature, where none are given; set by hand
 
 
@@ -59,7 +60,7 @@ def heat_kernel(spectrum: Spectrum | Metric | Mesh, time: float, points: Surface
     """
     spectrum = as_spectrum(spectrum)
     points = as_points(spectrum.mesh, points)
-    fade = np.exp(-spectrum.eigenvalues * (_times(time)[0] * spectrum.mass.sum()))
+    fade = np.exp(-spectrum.eigenvalues * (real_number(time, TIME, 0.0) * spectrum.mass.sum()))
     result = table(len(points), len(spectrum.mass), "values of the heat kernel", "take fewer points at a time")
     return np.matmul(points.interpolate(spectrum.eigenfunctions) * fade, spectrum.eigenfunctions.T, out=result)
 
@@ -161,7 +162,7 @@ def scale_invariant_heat_kernel_signature(
         Positive times that grow by a constant factor, in units of the area; by default 64 over the range that the
         spectrum resolves.
     n_frequencies : int
-        Number of frequencies :math:`\xi`, from 0.
+        Number of frequencies :math:`\xi`, from 0; as many as there are times at the most.
 
     Returns
     -------
@@ -171,7 +172,8 @@ def scale_invariant_heat_kernel_signature(
     Raises
     ------
     ValueError
-        When there are fewer than three times, or they do not grow by a constant factor.
+        When there are fewer than three times, or they do not grow by a constant factor, or for more frequencies than
+        times.
 
     References
     ----------
@@ -188,10 +190,11 @@ def scale_invariant_heat_kernel_signature(
     >>> geodesics.scale_invariant_heat_kernel_signature(sphere).shape
     (162, 6)
     """
-    spectrum, n_frequencies = as_spectrum(spectrum), whole_number(n_frequencies, "n_frequencies", 0)
+    spectrum = as_spectrum(spectrum)
     t = resolved_times(spectrum, TIMES) if times is None else _times(times)
     if len(t) < 3 or np.any(t <= 0) or not np.allclose(t[1:] / t[:-1], t[1] / t[0], rtol=1e-6):
         raise BadArgument("times must be at least three positive numbers that grow by a constant factor")
+    n_frequencies = whole_number(n_frequencies, "n_frequencies", 0, len(t), "as many as there are times")
     used = spectrum.mass > 0
     signature = heat_kernel_signature(spectrum, t)[used]
     # d log HKS / d eta = t HKS' / HKS, in closed form: no differences

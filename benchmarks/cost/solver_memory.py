@@ -3,11 +3,12 @@
     python -m benchmarks.cost.solver_memory [--only all-pairs]
 
 Pairs of surfaces and starts are those of `solver_cost`. "Pairs to the first" is a problem as `match` poses it: of more
-than 1,000 samples only pairs that one of the first 250 belongs to, solved by `gmds.solve_by_ladder`. "All pairs" is
-`gmds.solve` of all of them. Of surfaces of 5,000, 20,000 and 50,000 vertices geodesic distances in g are tabulated (300
-farthest points, rank 120), and 2,000 samples placed in them. "match" is the whole of it by geodesics in |K| g. Each
-case runs in a process of its own, after a small one, so that kernels are compiled; what that process held before is
-taken off. Linux alone tells this. CPU seconds are of one thread. Writes results/solver_memory.md and .csv.
+than 1,000 samples only pairs that one of the first 250 belongs to, solved by `gmds.solve_by_ladder`, or, from the first
+100 places, by `gmds.solve_multiresolution`. "All pairs" is `gmds.solve` of all of them. Of surfaces of 5,000, 20,000
+and 50,000 vertices geodesic distances in g are tabulated (300 farthest points, rank 120), and 2,000 samples placed in
+them. "match" is the whole of it by geodesics in |K| g. Each case runs in a process of its own, after a small one, so
+that kernels are compiled; what that process held before is taken off. Linux alone tells this. CPU seconds are of one
+thread. Writes results/solver_memory.md and .csv.
 """
 
 from __future__ import annotations
@@ -32,17 +33,24 @@ from gmds.shapes import quadruped
 
 PAGE, ROWS = RESULTS / "solver_memory.md", RESULTS / "solver_memory.csv"
 CLEAR = Path("/proc/self/clear_refs")  # 5 written to it: the peak starts anew from what is held now
+IN_TABLES = ("first-in-table", "multiresolution-in-table")
 CASES = [
     *(f"first {count} 5000" for count in (250, 500, 1000, 2000, 4000)),
     *(f"all-pairs {count} 5000" for count in (250, 500, 1000, 2000, 4000)),
-    *(f"{what} 2000 {vertices}" for vertices in (5000, 20_000, 50_000) for what in ("table", "first-in-table")),
+    *(f"multiresolution {count} 5000" for count in (1000, 2000, 4000)),
+    *(f"marched {count} 5000" for count in (250, 500, 1000)),
+    *(f"{what} 2000 {vertices}" for vertices in (5000, 20_000, 50_000) for what in ("table", *IN_TABLES)),
     *(f"match {count} 5000" for count in (500, 2000, 4000)),
 ]
+FEW = 100  # samples that `solve_multiresolution` starts with; set by hand
 MEANS = {
     "first": "pairs to the first, as `match` poses it",
     "all-pairs": "all pairs",
+    "multiresolution": "`solve_multiresolution` from 100, the same pairs",
+    "marched": "pairs to the first, of fields that are marched",
     "table": "two tables of geodesic distances made",
     "first-in-table": "pairs to the first, in these tables",
+    "multiresolution-in-table": "`solve_multiresolution` from 100, in these tables",
     "match": "`match(distance=...)`, all of it",
 }
 
@@ -55,6 +63,15 @@ def geodesic(mesh: geodesics.Mesh) -> geodesics.GeodesicDistance:
 def commute(mesh: geodesics.Mesh) -> geodesics.CommuteTimeDistance:
     """Commute-time distances by 100 eigenfunctions."""
     return geodesics.CommuteTimeDistance(geodesics.eigenpairs(mesh, 100))
+
+
+def distance_for(what: str) -> Callable[[geodesics.Mesh], geodesics.Distance]:
+    """The distance that a case is measured in."""
+    if what == "marched":
+        return geodesics.GeodesicDistance
+    if "table" in what:
+        return lambda mesh: gmds.TabulatedDistance(geodesics.GeodesicDistance(mesh))
+    return commute
 
 
 def grown(work: Callable[[], Any]) -> dict[str, float]:
@@ -70,8 +87,9 @@ def measured(what: str, count: int, vertices: int) -> dict[str, float]:
     small = quadruped(n_vertices=600), quadruped("walk", n_vertices=600, seed=1)
     start, _ = placed(*small, range(30))
     here = geodesics.SurfacePoints.at_vertices(small[0], range(30))
-    distances = commute(small[0]), commute(small[1])
+    distances = [distance_for(what)(mesh) for mesh in small]
     gmds.solve_by_ladder(gmds.Problem(distances[0], here, distances[1]), start)
+    gmds.solve_multiresolution(gmds.Problem(distances[0], here, distances[1]), start[:20])
     both = animal(vertices), animal(vertices, "walk")
     if what == "match":
         gmds.match(*small, distance=geodesic, n_samples=30)
@@ -79,16 +97,17 @@ def measured(what: str, count: int, vertices: int) -> dict[str, float]:
     if what == "table":
         gmds.TabulatedDistance(geodesics.GeodesicDistance(small[0]), landmarks=30)
         return grown(lambda: [gmds.TabulatedDistance(geodesics.GeodesicDistance(mesh)) for mesh in both])
-    made = (lambda mesh: gmds.TabulatedDistance(geodesics.GeodesicDistance(mesh))) if "table" in what else commute
-    ours, theirs = made(both[0]), made(both[1])
+    ours, theirs = (distance_for(what)(mesh) for mesh in both)
     samples = geodesics.farthest_point_sampling(commute(both[0]), count)
     points, (start, _) = geodesics.SurfacePoints.at_vertices(both[0], samples), placed(*both, samples)
     found: list[gmds.Solution] = []
 
     def work() -> None:
-        asked = None if what == "all-pairs" else pairs_asked(count)
-        solver = gmds.solve if what == "all-pairs" else gmds.solve_by_ladder
-        found.append(solver(gmds.Problem(ours, points, theirs, pairs=asked), start))
+        asked = gmds.Problem(ours, points, theirs, pairs=None if what == "all-pairs" else pairs_asked(count))
+        if "multiresolution" in what:
+            found.append(gmds.solve_multiresolution(asked, start[:FEW]))
+        else:
+            found.append((gmds.solve if what == "all-pairs" else gmds.solve_by_ladder)(asked, start))
 
     row = grown(work)
     every = gmds.Problem(ours, points, theirs).at(found[0].points).residuals
@@ -115,10 +134,10 @@ def page(rows: list[dict[str, str]]) -> str:
             *table(["what", "samples", "vertices", "MB", "CPU s", "stress"], told),
             "",
             "What is not linear in samples: a problem of all pairs holds four numbers a pair, and `gmds.solve` of it",
-            "the derivative of each by both its points as well; `pairs=250` of `gmds.Problem` avoids that.",
-            "`gmds.solve_multiresolution` makes tables of samples by samples, and of samples by vertices, when it",
-            "moves samples elsewhere. A distance without coordinates, such as `GeodesicDistance`, holds samples by",
-            "vertices numbers; `gmds.TabulatedDistance` of it does not, and `match` makes that by itself.",
+            "the derivative of each by both its points as well; `pairs=250` of `gmds.Problem` avoids that, and what",
+            "does not fit is refused with that advice. A distance without coordinates, such as `GeodesicDistance`,",
+            "holds samples by vertices numbers of the target; `gmds.TabulatedDistance` of it does not, and `match`",
+            "makes that by itself.",
             "",
         ]
     )

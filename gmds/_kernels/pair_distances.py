@@ -74,3 +74,42 @@ def slopes_of_products(first: Integers, second: Integers, product: Floats, lengt
         out[r, 1, 0] = (product[j, 0, j] - product[j, 0, i]) * inverse * scale[r]
         out[r, 1, 1] = (product[j, 1, j] - product[j, 1, i]) * inverse * scale[r]
     return out
+
+
+@njit
+def field_lengths(first: Integers, second: Integers, fields: Floats, corners: Integers, weights: Floats) -> Floats:
+    """Fields (p, n) of points `first` at points `second`, (r,): at their corners (q, 3), by barycentric weights (q, 3).
+
+    A corner without weight has no say, also where its field is infinite.
+    """
+    out = np.empty(len(first))
+    for r in range(len(first)):
+        i, j = first[r], second[r]
+        total = 0.0
+        for c in range(3):
+            if weights[j, c] != 0:
+                total += weights[j, c] * fields[i, corners[j, c]]
+        out[r] = total
+    return out
+
+
+@njit
+def field_slopes(
+    first: Integers, second: Integers, fields: Floats, corners: Integers, gradients: Floats, scale: Floats
+) -> Floats:
+    """(r, 2, 2): slopes of the field of each second point at the first, times scale_r, and of the first at the second.
+
+    `gradients` (p, 3, 2) are those of the barycentric weights. Where a field is infinite at a corner the slope is 0.
+    """
+    out = np.zeros((len(first), 2, 2))
+    for r in range(len(first)):
+        for side in range(2):
+            at, of = (first[r], second[r]) if side == 0 else (second[r], first[r])
+            x, y = 0.0, 0.0
+            for c in range(3):
+                value = fields[of, corners[at, c]]
+                x += value * gradients[at, c, 0]
+                y += value * gradients[at, c, 1]
+            if np.isfinite(x) and np.isfinite(y):
+                out[r, side, 0], out[r, side, 1] = x * scale[r], y * scale[r]
+    return out

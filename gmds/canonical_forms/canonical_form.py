@@ -41,7 +41,8 @@ class CanonicalForm:
     """A surface bent into a Euclidean space: the vertices at `positions` (n, m), in the unit of the distance.
 
     `samples` (p,) are the vertices whose distances were kept; `stress` is the root mean square of |d - |x - y|| between
-    them over the root mean square of d. Rows of vertices on no face, or out of reach of the samples, mean nothing.
+    them over the root mean square of d. Vertices on no face, or out of reach of
+    the samples, have rows of NaN.
 
     See Also
     --------
@@ -68,10 +69,13 @@ class CanonicalForm:
 
     @property
     def bent(self) -> Mesh:
-        """The form as a mesh with the same faces, of its first three coordinates."""
+        """The form as a mesh with the same faces, of its first three coordinates; vertices on no face are at 0."""
         if self.positions.shape[1] < 3:
             raise BadArgument(f"a form in {self.positions.shape[1]} dimensions is no mesh; ask for three")
-        return Mesh(self.positions[:, :3], self.mesh.faces)
+        known = np.asarray(np.isfinite(self.positions).all(axis=1))
+        if not known[self.mesh.faces].all():
+            raise BadArgument("a form is a mesh where no vertex is out of reach of the samples")
+        return Mesh(np.where(known[:, None], self.positions[:, :3], 0.0), self.mesh.faces)
 
 
 def canonical_form(
@@ -109,7 +113,7 @@ def canonical_form(
     Returns
     -------
     CanonicalForm
-        With a position for each vertex.
+        With a position for each vertex; NaN for those that samples cannot reach.
 
     Raises
     ------
@@ -160,6 +164,7 @@ def canonical_form(
         places = smacof(d, dimension, w)
         positions = _settled(fields, places, _extended(fields, d, places, w), w)
         positions[chosen] = places
+    positions[~np.isfinite(fields).all(axis=0)] = np.nan
     placed = positions[chosen]
     stress = stress_of(d, euclidean_distances(placed, placed), w) / stress_of(d, np.zeros_like(d), w)
     return CanonicalForm(distance.mesh, positions, chosen, float(np.sqrt(stress)))
@@ -195,7 +200,7 @@ def _spectrum(distance: Distance) -> Spectrum:
     if isinstance(spectrum, Spectrum):
         return spectrum
     metric = getattr(distance, "metric", None) or embedded(distance.mesh)
-    return eigenpairs(metric, min(FUNCTIONS, len(np.unique(distance.mesh.faces)) - 1))
+    return eigenpairs(metric, min(FUNCTIONS, len(np.unique(distance.mesh.faces))))
 
 
 def _extended(fields: Floats, d: Floats, places: Floats, w: Floats) -> Floats:

@@ -48,6 +48,7 @@ def bending(mesh: Mesh, angle: float = 30.0, *, count: int = 3, rng: int = 0) ->
     >>> bent.n_vertices, len(true)
     (200, 200)
     """
+    mesh = Mesh.from_object(mesh)
     random = np.random.default_rng(rng)
     tips, middle = extremities(mesh)
     chosen = random.permutation(tips)[:count]

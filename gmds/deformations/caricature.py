@@ -8,6 +8,7 @@ import scipy.sparse as sp
 from geodesics import Mesh, SurfacePoints, intrinsic, scale_invariant
 from geodesics.arguments import real_number
 from geodesics.arrays import Floats
+from geodesics.errors import BadArgument
 from geodesics.linalg.factors import lu_factors
 from geodesics.smoothing import DEFAULT_SMOOTHING
 from gmds.deformations.truths import moved
@@ -52,10 +53,13 @@ def caricature(
     --------
     local_scaling : Any field of scale.
     """
-    exponent = real_number(exponent, "exponent")
+    mesh, exponent = Mesh.from_object(mesh), real_number(exponent, "exponent")
     metric = scale_invariant(mesh, regularisation=regularisation, smoothing=smoothing)
     sphere = 4 * np.pi / mesh.area * np.hypot(1.0, regularisation)
-    growth = (np.asarray(metric.conformal_factor) / sphere) ** exponent
+    with np.errstate(over="ignore"):
+        growth = (np.asarray(metric.conformal_factor) / sphere) ** exponent
+    if not np.isfinite(growth).all():
+        raise BadArgument(f"exponent {exponent:g} is too large: powers of the curvature are beyond all numbers")
     cotangents = intrinsic.cotangents(intrinsic.squared_lengths(mesh.vertices, mesh.faces))
     plain = _stiffness(mesh, cotangents)
     scaled = _stiffness(mesh, cotangents * growth[mesh.faces].mean(axis=1, keepdims=True))

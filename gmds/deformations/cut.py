@@ -74,6 +74,7 @@ def cut(
     .. [1] Bracha, Dages, Kimmel, "On unsupervised partial shape correspondence", ACCV 2024: PFAUST, in which the balls
        (4 or 13) have one radius (0.16 or 0.1) and the largest component is kept.
     """
+    mesh = Mesh.from_object(mesh)
     if not 0 <= share < 1:
         raise BadArgument(f"share must be at least 0 and below 1, not {share}")
     if normal is not None and centre is not None:

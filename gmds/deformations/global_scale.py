@@ -43,6 +43,7 @@ def global_scale(mesh: Mesh, factor: float) -> tuple[Mesh, SurfacePoints]:
     >>> float(round(larger.area / animal.area, 6))
     4.0
     """
+    mesh = Mesh.from_object(mesh)
     if not factor > 0:
         raise BadArgument(f"factor must be positive, not {factor}")
     return moved(mesh, factor * mesh.vertices)

@@ -30,6 +30,7 @@ def gluing(mesh: Mesh, count: int = 1, *, rng: int = 0) -> tuple[Mesh, SurfacePo
     truth : SurfacePoints
         n points of it, one per vertex of the old mesh.
     """
+    mesh = Mesh.from_object(mesh)
     random = np.random.default_rng(rng)
     some = random.permutation(mesh.n_vertices)[:200]
     along = edge_distances(mesh, some)

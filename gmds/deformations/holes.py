@@ -40,6 +40,7 @@ def holes(mesh: Mesh, count: int = 5, *, radius: float = 0.05, rng: int = 0) -> 
     ValueError
         When nothing is left.
     """
+    mesh = Mesh.from_object(mesh)
     random = np.random.default_rng(rng)
     centres = random.permutation(mesh.n_vertices)[:count]
     distance = edge_distances(mesh, centres).min(axis=0) if count else np.full(mesh.n_vertices, np.inf)

@@ -58,6 +58,7 @@ def local_scaling(mesh: Mesh, log_scale: ArrayLike) -> tuple[Mesh, SurfacePoints
     >>> bool(grown.area > animal.area)
     True
     """
+    mesh = Mesh.from_object(mesh)
     u = np.asarray(log_scale, dtype=np.float64)
     if u.shape != (mesh.n_vertices,) or not np.isfinite(u).all():
         raise BadShape(f"log_scale must be {mesh.n_vertices} finite numbers, one per vertex; its shape is {u.shape}")
@@ -115,6 +116,7 @@ def branch_log_scale(mesh: Mesh, factor: float, *, count: int = 2, reach: float 
     array of shape (n,)
         The natural logarithm of the scale.
     """
+    mesh = Mesh.from_object(mesh)
     tips, middle = extremities(mesh)
     chosen = np.random.default_rng(rng).permutation(tips)[:count]
     u = np.zeros(mesh.n_vertices)

@@ -40,6 +40,7 @@ def noise(mesh: Mesh, strength: float = 0.2, *, rng: int = 0) -> tuple[Mesh, Sur
     >>> rough.n_faces == animal.n_faces
     True
     """
+    mesh = Mesh.from_object(mesh)
     step = strength * mean_edge_length(mesh)
     height = np.random.default_rng(rng).normal(0, step, mesh.n_vertices)
     return moved(mesh, mesh.vertices + height[:, None] * vertex_normals(mesh))

@@ -64,6 +64,7 @@ def remeshing(
     >>> len(true), true.mesh is other  # a point of the other for each vertex
     (200, True)
     """
+    mesh = Mesh.from_object(mesh)
     if remesher is not None:
         result = remesher(mesh)
         return result, SurfacePoints.closest(result, mesh.vertices)

@@ -45,6 +45,7 @@ def scan(mesh: Mesh, direction: ArrayLike | None = None, *, rng: int = 0) -> Par
     --------
     cut : Parts cut off by a plane or by balls.
     """
+    mesh = Mesh.from_object(mesh)
     towards = unit(np.random.default_rng(rng).standard_normal(3) if direction is None else direction)
     corners = (mesh.vertices @ camera_axes(towards).T)[mesh.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

@@ -34,6 +34,7 @@ def shot_noise(mesh: Mesh, strength: float = 2.0, *, share: float = 0.01, rng: i
     --------
     noise : All vertices, but less.
     """
+    mesh = Mesh.from_object(mesh)
     random = np.random.default_rng(rng)
     hit = random.permutation(mesh.n_vertices)[: round(share * mesh.n_vertices)]
     height = np.zeros(mesh.n_vertices)

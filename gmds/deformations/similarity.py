@@ -34,6 +34,7 @@ def similarity(mesh: Mesh, *, largest_scale: float = 1.0, rng: int = 0) -> tuple
     ValueError
         When `largest_scale` is less than 1.
     """
+    mesh = Mesh.from_object(mesh)
     if not largest_scale >= 1:
         raise BadArgument(f"largest_scale must be at least 1, not {largest_scale}")
     random = np.random.default_rng(rng)

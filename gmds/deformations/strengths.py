@@ -57,6 +57,7 @@ def local_scale(mesh: Mesh, factor: float = 1.6, *, count: int = 4, rng: int = 0
     truth : SurfacePoints
         n points of it, one per vertex of the old mesh.
     """
+    mesh = Mesh.from_object(mesh)
     return local_scaling(mesh, branch_log_scale(mesh, factor, count=count, rng=rng))
 
 
@@ -143,6 +144,7 @@ def deformed(mesh: Mesh, kind: str, strength: int, rng: int = 0) -> tuple[Mesh, 
     --------
     gmds.deformations.compose : Several deformations as one.
     """
+    mesh = Mesh.from_object(mesh)
     if kind not in KINDS:
         raise BadArgument(f"kind must be one of {', '.join(KINDS)}, not {kind!r}")
     return KINDS[kind].apply(mesh, rng, **KINDS[kind].parameters(strength))

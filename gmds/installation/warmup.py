@@ -30,6 +30,8 @@ def warm_up(progress: Callable[[str, float], None] | None = None) -> Warmth:
     from geodesics.compiling import cache_folder, reporting_compilation
     from gmds.matching.pair import simplified
     from gmds.matching.pipeline import match
+    from gmds.mds.problem import Problem
+    from gmds.mds.solver import solve
     from gmds.parts.alignments import Judged, alignments
     from gmds.shapes import quadruped
     from gmds.surface.measured import measure
@@ -45,7 +47,8 @@ def warm_up(progress: Callable[[str, float], None] | None = None) -> Warmth:
         source, target = (quadruped(pose, n_vertices=VERTICES) for pose in ("stand", "walk"))
         distance = GeodesicDistance(scale_invariant(source))
         distance.field(SurfacePoints(source, np.array([0]), np.full((1, 3), 1 / 3)))
-        farthest_point_sampling(distance, 4)
+        few = farthest_point_sampling(distance, 4)
+        solve(Problem(distance, few, distance), few)
         eigenpairs(scale_invariant(quadruped(n_vertices=SPARSE)), 10)
         match(source, target, distance=lambda mesh: GeodesicDistance(scale_invariant(mesh)), n_samples=12)
         match(source, target, progress=progress)

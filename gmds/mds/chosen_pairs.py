@@ -7,20 +7,15 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from geodesics.arguments import is_whole
+from geodesics.arguments import is_whole, real_numbers
 from geodesics.arrays import Floats, Integers
 from geodesics.errors import BadArgument
-from gmds.mds.pair_distances import EmbeddedPairs, Pairs
+from geodesics.memory import must_fit
 
+HELD = 4  # numbers of a pair that a problem holds: both its samples, their distance, its weight
+FEWER_PAIRS = "`pairs=250` asks for those to the first samples alone"
 Weights = ArrayLike | Callable[[Floats], Floats] | None
 """Of the samples, of the pairs of samples, or a function of the distances of the pairs; none: all are 1."""
-
-
-def lengths_of(pairs: Pairs, first: Integers, second: Integers) -> Floats:
-    """Distances (r,) of some pairs of the points."""
-    if isinstance(pairs, EmbeddedPairs):
-        return pairs.lengths(first, second)
-    return pairs.distances()[first, second]
 
 
 def chosen_pairs(pairs: ArrayLike | int | None, count: int) -> tuple[Integers, Integers]:
@@ -28,6 +23,7 @@ def chosen_pairs(pairs: ArrayLike | int | None, count: int) -> tuple[Integers, I
     if isinstance(pairs, int | np.integer) and is_whole(pairs):
         return _pairs_of_the_first(int(pairs), count)
     if pairs is None:
+        must_fit(HELD * (count * (count - 1) // 2), f"all pairs of {count} samples", FEWER_PAIRS)
         first, second = np.triu_indices(count, 1)
         return first.astype(np.int64), second.astype(np.int64)
     chosen = np.asarray(pairs)
@@ -57,7 +53,7 @@ def pair_weights(weights: Weights, first: Integers, second: Integers, lengths: F
         if pair.shape != lengths.shape:
             raise BadArgument(f"weights of {len(lengths)} distances must have as many entries, not {pair.shape}")
     else:
-        pair = _tabulated_weights(np.asarray(weights, dtype=np.float64), first, second, count)
+        pair = _tabulated_weights(real_numbers(weights, "weights"), first, second, count)
     if not np.isfinite(pair).all() or (pair < 0).any() or not pair.any():
         raise BadArgument("weights must be finite, not negative, and not all zero")
     return pair / pair.mean()
@@ -67,6 +63,16 @@ def _tabulated_weights(weights: Floats, first: Integers, second: Integers, count
     """w_ij (r,) from weights of the samples (p,) or of their pairs (p, p)."""
     if weights.shape not in ((count,), (count, count)):
         raise BadArgument(f"weights must have shape ({count},) or ({count}, {count}), not {weights.shape}")
+    if (weights < 0).any():
+        raise BadArgument("weights must be finite, not negative, and not all zero")
     if weights.ndim == 1:
         return np.asarray(weights[first] * weights[second], dtype=np.float64)
     return np.asarray(0.5 * (weights[first, second] + weights[second, first]), dtype=np.float64)
+
+
+def tabulated(values: Floats, first: Integers, second: Integers, table: Floats) -> Floats:
+    """The table (p, h), with one value a pair (r,) written where both ways round it has a place."""
+    for one, other in ((first, second), (second, first)):
+        known = other < table.shape[1]
+        table[one[known], other[known]] = values[known]
+    return table

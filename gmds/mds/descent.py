@@ -88,6 +88,22 @@ def descend(
     return Descent(here, stress, radius, max_iterations, np.inf, Status.ITERATION_LIMIT)
 
 
+def remaining(here: Placement, loss: Loss) -> float:
+    """By how much the problem linearised here lowers the stress, within the region that `CERTIFIED` says.
+
+    Points stay in their faces, and in the faces around them in turn where they lie on edges, as in a walled descent.
+    """
+    most = 0.0
+    for _ in range(SIDES):
+        stress = loss.value(here.residuals)
+        most = max(most, _predicted(here, stress, here.walled_jacobian, loss, CERTIFIED)[1])
+        other, turned = turned_over(here.points)
+        if not turned.any():
+            break
+        here = here.problem.at(other)
+    return most
+
+
 def _predicted(here: Placement, stress: float, jacobian: Jacobian, loss: Loss, radius: float) -> tuple[Floats, float]:
     """The step of the loss, and by how much it lowers the stress of the linearised problem."""
     step = loss.step(jacobian, here.residuals, radius)

@@ -8,24 +8,24 @@ from typing import cast
 import numpy as np
 
 from geodesics import Mesh, SurfacePoints
-from geodesics.arrays import Floats
+from geodesics.arrays import Floats, Integers
 from gmds.mds.descent import Descent, Settler
-from gmds.mds.pair_distances import FieldPairs
+from gmds.mds.field_pairs import FieldPairs
 from gmds.mds.problem import Placement
 from gmds.mds.status import Status
 
 
 @dataclass(frozen=True, eq=False)
 class FrozenDistance:
-    """Distances between p moving points, by the fields (p, n) marched from where they once were.
+    """Distances of r pairs of p moving points, by the fields (p, n) marched from where they once were.
 
-    d(x_i, x_j) = f_i(x_j) + f_j(x_i) - d_0, d_0 (p, p) being the distances then: exact while one of the two moves,
+    d(x_i, x_j) = f_i(x_j) + f_j(x_i) - d_0, d_0 (r,) being the distances then: exact while one of the two moves,
     and wrong by the product of both moves over the distance when both do.
     """
 
     mesh: Mesh
     fields: Floats
-    reference_distances: Floats
+    reference_lengths: Floats
 
     def field(self, points: SurfacePoints) -> Floats:
         """The frozen fields (p, n)."""
@@ -33,25 +33,25 @@ class FrozenDistance:
 
     def pairs(self, points: SurfacePoints) -> FrozenPairs:
         """Distances between the points where they are now."""
-        return FrozenPairs(FieldPairs(points, self.fields), self.reference_distances)
+        return FrozenPairs(FieldPairs(points, self.fields), self.reference_lengths)
 
 
 @dataclass(frozen=True, eq=False)
 class FrozenPairs:
-    """All distances between p points of a `FrozenDistance`."""
+    """The r pairs of p points of a `FrozenDistance`."""
 
     now: FieldPairs
-    reference_distances: Floats
+    reference_lengths: Floats
 
-    def distances(self) -> Floats:
-        """Symmetric (p, p), never negative."""
+    def lengths(self, first: Integers, second: Integers) -> Floats:
+        """Distances (r,) of the pairs, never negative; they are those that the distance was frozen with."""
         with np.errstate(invalid="ignore"):
-            distances = 2 * self.now.distances() - self.reference_distances
-        return np.where(np.isfinite(distances), np.maximum(distances, 0.0), np.inf)
+            lengths = 2 * self.now.lengths(first, second) - self.reference_lengths
+        return np.where(np.isfinite(lengths), np.maximum(lengths, 0.0), np.inf)
 
-    def derivatives(self, distances: Floats) -> Floats:
-        """(p, 2, p), as `FieldPairs.derivatives`."""
-        return self.now.derivatives(distances)
+    def slopes(self, first: Integers, second: Integers, lengths: Floats, scale: Floats) -> Floats:
+        """(r, 2, 2), as `FieldPairs.slopes`."""
+        return self.now.slopes(first, second, lengths, scale)
 
 
 def remarch(start: Placement, settle: Settler, max_iterations: int, max_rounds: int = 20) -> Descent:
@@ -87,5 +87,5 @@ def remarch(start: Placement, settle: Settler, max_iterations: int, max_rounds: 
 def frozen(here: Placement) -> Placement:
     """The same placement, of the problem whose fields stay as they are here."""
     fields = cast(FieldPairs, here.pairs).fields
-    distance = FrozenDistance(here.points.mesh, fields, here.distances)
+    distance = FrozenDistance(here.points.mesh, fields, here.lengths)
     return here.problem.towards(distance).at(here.points)

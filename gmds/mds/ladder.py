@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from geodesics import SurfacePoints
 from geodesics.arrays import Floats
 from geodesics.distance import as_points
+from gmds.mds.certificate import certified
 from gmds.mds.losses import LeastSquares, Loss, Minimax, Power, SmoothLoss, as_loss
 from gmds.mds.many_samples import MANY, solve_many
 from gmds.mds.problem import Problem
@@ -55,7 +56,7 @@ def solve_by_ladder(
     Returns
     -------
     Solution
-        Of the loss itself, with its certificate.
+        Of the loss itself, with its certificate, also where the iteration limit came first.
 
     See Also
     --------
@@ -90,10 +91,10 @@ def solve_by_ladder(
     last = solve if rungs else smooth
     found = last(problem, start, loss, max_iterations=max_iterations, tolerance=tolerance)
     if not isinstance(loss, Minimax):
-        return found
+        return certified(problem, found, loss)
     calm = solve(problem, found.points, _Below(found.stress), max_iterations=max_iterations, tolerance=tolerance)
     again = solve(problem, calm.points, loss, max_iterations=max_iterations, tolerance=tolerance)
-    return again if again.stress <= (1 + MORE) * found.stress else found
+    return certified(problem, again if again.stress <= (1 + MORE) * found.stress else found, loss)
 
 
 @dataclass(frozen=True)

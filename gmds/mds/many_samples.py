@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from geodesics import SurfacePoints
 from geodesics.points import joined, mixed
+from gmds.mds.certificate import of_all_pairs
 from gmds.mds.losses import Loss, as_loss
 from gmds.mds.problem import Problem
 from gmds.mds.prolongation import prolonged
@@ -27,6 +26,21 @@ def pairs_asked(count: int) -> int | None:
     return HEADS if count > MANY else None
 
 
+FIXED = 3  # distances to placed samples that fix another: from two there are two places
+
+
+def pairs_suffice(problem: Problem, heads: int) -> bool:
+    """Whether the pairs with the first `heads` samples fix all others; not so where chosen pairs pass them by.
+
+    A sample with fewer than `FIXED` of them, and others, is not fixed.
+    """
+    ours, theirs = problem.first < heads, problem.second < heads
+    known = np.bincount(problem.second[ours], minlength=len(problem))
+    known = known + np.bincount(problem.first[theirs], minlength=len(problem))
+    every = np.bincount(np.concatenate([problem.first, problem.second]), minlength=len(problem))
+    return not bool(((known < min(FIXED, heads - 1)) & (known < every)).any())
+
+
 def solve_many(
     problem: Problem,
     start: SurfacePoints,
@@ -40,7 +54,8 @@ def solve_many(
 
     The first are solved for alone, from their start. Each other sample goes to the vertex that best keeps its distances
     to those; then all of them are moved so that the distances to the first are kept. Memory is linear in the number of
-    samples, but for pairs that the problem itself has.
+    samples, but for pairs that the problem itself has. Where those with the first do not fix all others, as of pairs
+    that were chosen, it is `solve`.
 
     Parameters
     ----------
@@ -52,22 +67,21 @@ def solve_many(
     Returns
     -------
     Solution
-        Its stress and residuals are of all pairs of the problem, its certificate of those with the first samples.
+        Of all pairs of the problem; its certificate too, by what those with the first samples allow.
 
     See Also
     --------
     solve : All pairs at once.
     solve_multiresolution : From few samples to many in many steps.
     """
-    heads = min(max(3, heads), len(problem))
+    heads, loss = min(max(3, heads), len(problem)), as_loss(loss)
+    if not pairs_suffice(problem, heads):
+        return solve(problem, start, loss, max_iterations=max_iterations, tolerance=tolerance)
     points = solve(problem.head(heads), start[:heads], loss, max_iterations=max_iterations, tolerance=tolerance).points
-    anchored = problem.anchored(heads)
-    table = np.full((len(problem), heads), np.nan)
-    table[anchored.second, anchored.first] = anchored.source_distances
-    reached = np.isfinite(table[heads:]).any(axis=1)
+    anchored, table = problem.anchored(heads), problem.distance_table(heads)
+    reached = np.asarray(np.isfinite(table[heads:]).any(axis=1))
     points = joined(points, mixed(reached, prolonged(table[heads:], problem.target_distance, points), start[heads:]))
     for asked in (10 * tolerance, tolerance):
         found = solve(anchored, points, loss, max_iterations=min(STEPS, max_iterations), tolerance=asked)
         points = found.points
-    residuals = problem.at(points).residuals
-    return replace(found, residuals=residuals, stress=as_loss(loss).value(residuals))
+    return of_all_pairs(problem, anchored, found, loss)

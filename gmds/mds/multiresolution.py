@@ -8,10 +8,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geodesics import SurfacePoints
+from geodesics.arguments import real_number
 from geodesics.distance import as_points
 from geodesics.errors import BadArgument
 from geodesics.points import joined
-from gmds.mds.losses import Loss
+from gmds.mds.certificate import of_all_pairs
+from gmds.mds.losses import Loss, as_loss
+from gmds.mds.many_samples import HEADS, MANY, pairs_suffice
 from gmds.mds.problem import Problem
 from gmds.mds.prolongation import prolonged, relocated
 from gmds.mds.solver import Solution, solve
@@ -31,7 +34,9 @@ def solve_multiresolution(
 
     The samples of the problem should come in farthest-point order, so that the first k cover the surface. Between
     two levels each new sample goes to the vertex that best keeps its distances to the placed ones, and samples that
-    would fare better elsewhere on the target are moved there.
+    would fare better elsewhere on the target are moved there. Above 1,000 samples pairs with the first 250 are looked
+    at alone, as `match` does, so that memory is linear in the number of samples (`pairs=250` of `Problem` makes no
+    others to begin with).
 
     Parameters
     ----------
@@ -51,7 +56,7 @@ def solve_multiresolution(
     Returns
     -------
     Solution
-        Of all samples.
+        Of all samples, and of all pairs of the problem.
 
     Raises
     ------
@@ -83,20 +88,25 @@ def solve_multiresolution(
     """
     start = as_points(problem.target_distance.mesh, start)
     count = len(start)
-    if not 2 <= count <= len(problem) or not growth > 1:
+    if not 2 <= count <= len(problem) or not real_number(growth, "growth") > 1:
         raise BadArgument(f"cannot grow {count} of {len(problem)} samples by a factor of {growth}: need 2 and above 1")
     levels = [count]
     while levels[-1] < len(problem):
         levels.append(min(len(problem), int(np.ceil(growth * levels[-1]))))
-    points = start
+    loss, points = as_loss(loss), start
     for level, size in enumerate(levels):
         part = problem.head(size)
+        heads = HEADS if size > MANY and pairs_suffice(part, HEADS) else None
+        asked = part if heads is None else part.anchored(heads)
         if size > len(points):
-            new = prolonged(part.distance_table()[len(points) :, : len(points)], problem.target_distance, points)
+            known = part.distance_table(min(len(points), heads or size))[len(points) :]
+            new = prolonged(known, problem.target_distance, points[: known.shape[1]])
             points = joined(points, new)
-        points = relocated(part.at(points)).points
-        solution = solve(part, points, loss, max_iterations=max_iterations, tolerance=tolerance)
+        if size < len(problem) and not len(asked.first):
+            continue  # none of so few knows of another
+        points = relocated(asked.at(points), heads=heads).points
+        solution = solve(asked, points, loss, max_iterations=max_iterations, tolerance=tolerance)
         points = solution.points
         if progress is not None:
             progress("embedding", (level + 1) / len(levels))
-    return solution
+    return solution if heads is None else of_all_pairs(problem, asked, solution, loss)

@@ -1,4 +1,4 @@
-"""Distances between points of one surface, and how they change when the points move."""
+"""Distances between points of one surface, and how they change when the points move: in coordinates, or by fields."""
 
 from __future__ import annotations
 
@@ -10,10 +10,13 @@ import numpy as np
 from geodesics import Distance, SurfacePoints
 from geodesics.arrays import Bools, Floats, Integers
 from geodesics.caching import cached_property
+from geodesics.memory import must_fit
 from geodesics.topology.components import vertex_components
-from geodesics.tracing import barycentric_gradient, gradient
+from geodesics.tracing import gradient
 from gmds._kernels import pair_distances as kernel
+from gmds.mds.field_pairs import FIELDS, FieldPairs, lengths_of_fields
 
+TABULATE = "make it a `gmds.TabulatedDistance`, which holds some hundred numbers a vertex, or ask for fewer samples"
 SPARSE = 4
 """Pairs are measured one by one where they are fewer than one in `SPARSE` of p x p; else a product of matrices is
 quicker (`benchmarks/cost/solver_cost.py`)."""
@@ -31,30 +34,36 @@ class EmbeddedDistance(Distance, Protocol):
 
 
 @dataclass(frozen=True, eq=False)
+class Reach:
+    """Which points can reach each other: the component (p,) of each, and the points (c, p) that each reaches."""
+
+    component: Integers
+    finite: Bools
+
+    def __call__(self, first: Integers, second: Integers) -> Bools:
+        """Whether chosen pairs can."""
+        return np.asarray(self.finite[self.component[first], second])
+
+
+@dataclass(frozen=True, eq=False)
 class EmbeddedPairs:
     """All distances between p points of an embedding, exact also inside the faces, as in (3.1) and (3.2)."""
 
     points: SurfacePoints
     embedding: Floats
     signature: Floats
-    reach: Bools | None = None
+    reach: Reach | None = None
 
     def distances(self) -> Floats:
-        """Symmetric (p, p); +inf where `reach` (p, p) is False."""
+        """Symmetric (p, p); +inf out of `reach`."""
         e = self.rows
         gram = (e * self.signature) @ e.T
         norm = np.diagonal(gram)
         square = norm[:, None] + norm[None] - (gram + gram.T)
         np.fill_diagonal(square, 0.0)
         distances = np.sqrt(np.maximum(square, 0.0))
-        return distances if self.reach is None else np.where(self.reach, distances, np.inf)
-
-    def derivatives(self, distances: Floats) -> Floats:
-        """(p, 2, p): of d(x_i, x_j) by the in-face displacement of x_i, = (e_i - e_j) . grad e_i / d; 0 where d = 0."""
-        product, index = self._products, np.arange(len(self.points))
-        with np.errstate(divide="ignore"):
-            inverse = np.where(distances > 0, 1 / distances, 0.0)
-        return (product[index, :, index][:, :, None] - product) * inverse[:, None, :]
+        every = np.arange(len(e))
+        return distances if self.reach is None else np.where(self.reach(every[:, None], every), distances, np.inf)
 
     def lengths(self, first: Integers, second: Integers) -> Floats:
         """Distances (r,) of chosen pairs."""
@@ -62,10 +71,10 @@ class EmbeddedPairs:
             lengths = kernel.lengths(first, second, self.rows, self.signature)
         else:
             lengths = kernel.lengths_of_products(first, second, (self.rows * self.signature) @ self.rows.T)
-        return lengths if self.reach is None else np.where(self.reach[first, second], lengths, np.inf)
+        return lengths if self.reach is None else np.where(self.reach(first, second), lengths, np.inf)
 
     def slopes(self, first: Integers, second: Integers, lengths: Floats, scale: Floats) -> Floats:
-        """(r, 2, 2): what `derivatives` says of chosen pairs, first of their first point, each times `scale` (r,)."""
+        """(r, 2, 2): (e_i - e_j) . grad e_i / d, and the same of j, each times `scale` (r,); 0 where d = 0."""
         if self._few(first):
             return kernel.slopes(first, second, self.rows, self.signature, self._gradients, lengths, scale)
         return kernel.slopes_of_products(first, second, self._products, lengths, scale)
@@ -90,58 +99,57 @@ class EmbeddedPairs:
         return SPARSE * len(first) < len(self.points) ** 2
 
 
-@dataclass(frozen=True, eq=False)
-class FieldPairs:
-    """All distances between p points by the distance field (p, n) of each of them, linear on faces.
-
-    Both directions are averaged. Pairs that cannot reach each other are +inf.
-    """
-
-    points: SurfacePoints
-    fields: Floats
-
-    def distances(self) -> Floats:
-        """Symmetric (p, p)."""
-        corners = self.fields[:, self.points.mesh.faces[self.points.face]]
-        with np.errstate(invalid="ignore"):  # 0 * inf at a corner without weight
-            there = np.nansum(corners * self.points.barycentric, axis=2)
-        distances = 0.5 * (there + there.T)
-        np.fill_diagonal(distances, 0.0)
-        return distances
-
-    def derivatives(self, distances: Floats) -> Floats:
-        """(p, 2, p): of d(x_i, x_j) by the in-face displacement of x_i, = the slope of the field of x_j at x_i."""
-        corners = self.fields[:, self.points.mesh.faces[self.points.face]]
-        corners = np.where(np.isfinite(corners).all(axis=2, keepdims=True), corners, 0.0)
-        return np.einsum("qpk,pkx->pxq", corners, barycentric_gradient(self.points))
-
-
 class Pairs(Protocol):
-    """All distances between p points of a surface."""
+    """Distances between p points of a surface."""
 
-    def distances(self) -> Floats:
-        """Symmetric (p, p), +inf where a point cannot reach another."""
+    def lengths(self, first: Integers, second: Integers) -> Floats:
+        """Distances (r,) of chosen pairs, +inf where a point cannot reach another."""
 
-    def derivatives(self, distances: Floats) -> Floats:
-        """(p, 2, p): entry [i, :, j] is the derivative of d(x_i, x_j) by the in-face displacement of x_i."""
+    def slopes(self, first: Integers, second: Integers, lengths: Floats, scale: Floats) -> Floats:
+        """(r, 2, 2): the derivative of each distance by the in-face displacement of its two points, times `scale`."""
 
 
-def pairwise(distance: Distance, points: SurfacePoints) -> Pairs:
-    """Distances between the points: as the distance itself says, in its embedding if it has one, else by fields."""
-    if hasattr(distance, "pairs"):
-        return cast(Pairs, distance.pairs(points))
+def pairwise(distance: Distance, points: SurfacePoints) -> EmbeddedPairs | FieldPairs:
+    """Distances between the points, in the embedding of the distance if it has one, else by fields.
+
+    Raises `WouldExceedMemory` (E501) when the fields do not fit.
+    """
+    if not hasattr(distance, "embedding"):
+        must_fit(len(points) * points.mesh.n_vertices, "distance fields of all samples", TABULATE)
+        return FieldPairs(points, np.ascontiguousarray(distance.field(points), dtype=np.float64))
+    embedding = cast(EmbeddedDistance, distance).embedding
+    signature = getattr(distance, "signature", np.ones(embedding.shape[1]))
+    return EmbeddedPairs(points, embedding, signature, _reach(distance, points))
+
+
+def lengths_between(distance: Distance, points: SurfacePoints, first: Integers, second: Integers) -> Floats:
+    """Distances (r,) of chosen pairs of points, as `pairwise` measures them; no field is kept."""
     if hasattr(distance, "embedding"):
-        embedding = cast(EmbeddedDistance, distance).embedding
-        signature = getattr(distance, "signature", np.ones(embedding.shape[1]))
-        return EmbeddedPairs(points, embedding, signature, _reach(distance, points))
-    return FieldPairs(points, distance.field(points))
+        return pairwise(distance, points).lengths(first, second)
+    return lengths_of_fields(distance, points, first, second)
 
 
-def _reach(distance: Distance, points: SurfacePoints) -> Bools | None:
-    """Which points can reach each other (p, p), asked once per component of the mesh; None: all of them."""
+def distances_to(distance: Distance, points: SurfacePoints, vertices: Integers) -> Floats:
+    """Distances (p, g) from points to some vertices: in coordinates, or by fields of which the rest is not kept."""
+    if not hasattr(distance, "embedding"):
+        at_once = max(1, FIELDS // points.mesh.n_vertices)
+        parts = [points[start : start + at_once] for start in range(0, len(points), at_once)]
+        return np.concatenate([distance.field(part)[:, vertices] for part in parts])
+    embedding = cast(EmbeddedDistance, distance).embedding
+    signature = getattr(distance, "signature", np.ones(embedding.shape[1]))
+    here, there = points.interpolate(embedding), embedding[vertices]
+    lengths = (here**2 @ signature)[:, None] + there**2 @ signature - 2 * (here * signature) @ there.T
+    np.sqrt(np.maximum(lengths, 0.0, out=lengths), out=lengths)
+    label = vertex_components(points.mesh)
+    lengths[label[points.mesh.faces[points.face, 0]][:, None] != label[vertices]] = np.inf
+    return lengths
+
+
+def _reach(distance: Distance, points: SurfacePoints) -> Reach | None:
+    """Which points can reach each other, asked once per component of the mesh; None: all of them."""
     label = vertex_components(points.mesh)[points.mesh.faces[points.face, 0]]
     present, first, component = np.unique(label, return_index=True, return_inverse=True)
     if len(present) == 1:
         return None
     finite = np.isfinite(distance.field(points[first])[:, points.mesh.faces[points.face, 0]])
-    return finite[component.reshape(-1)]
+    return Reach(component.reshape(-1), finite)

@@ -14,9 +14,9 @@ from geodesics.caching import cached_property
 from geodesics.distance import as_distance, as_points
 from geodesics.errors import BadArgument
 from geodesics.tracing import barycentric_gradient
-from gmds.mds.chosen_pairs import Weights, chosen_pairs, lengths_of, pair_weights
+from gmds.mds.chosen_pairs import Weights, chosen_pairs, pair_weights, tabulated
 from gmds.mds.jacobian import Jacobian, scaled
-from gmds.mds.pair_distances import EmbeddedPairs, Pairs, pairwise
+from gmds.mds.pair_distances import Pairs, lengths_between, pairwise
 
 PER_PAIR = {"first", "second", "source_distances", "root_weights"}  # of a problem: arrays with one entry a pair
 
@@ -47,6 +47,8 @@ class Problem:
     ------
     ValueError
         When shapes disagree, no two samples can reach each other, or a weight is negative.
+    WouldExceedMemory
+        When all pairs do not fit, or fields of a distance without coordinates (E501).
 
     See Also
     --------
@@ -86,7 +88,7 @@ class Problem:
         source_points = as_points(source_distance.mesh, source_points)
         count = len(source_points)
         first, second = chosen_pairs(pairs, count)
-        lengths = lengths_of(pairwise(source_distance, source_points), first, second)
+        lengths = lengths_between(source_distance, source_points, first, second)
         reached = np.isfinite(lengths)
         if not (lengths[reached] > 0).any():
             raise BadArgument("a problem needs at least two samples at a positive, finite distance from each other")
@@ -133,7 +135,8 @@ class Problem:
             raise BadArgument(f"{len(self)} samples need {len(self)} target points, not {len(points)}")
         if points.mesh is not self.target_distance.mesh:
             raise BadArgument("the points lie on another mesh than the target distance measures")
-        return Placement(self, points, pairwise(self.target_distance, points))
+        own = getattr(self.target_distance, "pairs", None)  # of a distance that measures pairs itself
+        return Placement(self, points, pairwise(self.target_distance, points) if own is None else own(points))
 
     @cached_property
     def total_weights(self) -> Floats:
@@ -142,11 +145,15 @@ class Problem:
         ends = np.concatenate([self.first, self.second])
         return np.bincount(ends, np.concatenate([square, square]), len(self)).astype(np.float64)
 
-    def distance_table(self) -> Floats:
-        """Source distances (p, p) of the pairs that are asked for, NaN elsewhere."""
-        table = np.full((len(self), len(self)), np.nan)
-        table[self.first, self.second] = table[self.second, self.first] = self.source_distances
-        return table
+    def distance_table(self, heads: int | None = None) -> Floats:
+        """Source distances (p, h) to the first h samples of the pairs that are asked for, else NaN; None: to all."""
+        return tabulated(
+            self.source_distances, self.first, self.second, np.full((len(self), heads or len(self)), np.nan)
+        )
+
+    def weight_table(self, heads: int | None = None) -> Floats:
+        """Weights (p, h) of these pairs, 0 elsewhere."""
+        return tabulated(self.root_weights**2, self.first, self.second, np.zeros((len(self), heads or len(self))))
 
     def compare(self, lengths: Floats) -> Floats:
         """Residuals (r,) of target distances (r,); a pair out of reach counts as three mean distances apart."""
@@ -163,15 +170,9 @@ class Placement:
     pairs: Pairs
 
     @cached_property
-    def distances(self) -> Floats:
-        """Distances between the target points, (p, p)."""
-        return self.pairs.distances()
-
-    @cached_property
     def lengths(self) -> Floats:
         """Distances of the pairs that are asked for, (r,)."""
-        pairs, first, second = self.pairs, self.problem.first, self.problem.second
-        return lengths_of(pairs, first, second) if isinstance(pairs, EmbeddedPairs) else self.distances[first, second]
+        return self.pairs.lengths(self.problem.first, self.problem.second)
 
     @cached_property
     def residuals(self) -> Floats:
@@ -190,10 +191,7 @@ class Placement:
         """Of the residuals by the in-face displacement of their two points, (r, 2, 2)."""
         first, second, lengths = self.problem.first, self.problem.second, self.lengths
         scale = -np.where(np.isfinite(lengths), self.problem.root_weights, 0.0) / self.problem.unit
-        if isinstance(self.pairs, EmbeddedPairs):
-            return self.pairs.slopes(first, second, lengths, scale)
-        slope = self.pairs.derivatives(self.distances)
-        return np.stack([slope[first, :, second], slope[second, :, first]], axis=1) * scale[:, None, None]
+        return self.pairs.slopes(first, second, lengths, scale)
 
     @property
     def jacobian(self) -> Jacobian:

@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geodesics import SurfacePoints
+from geodesics.arguments import real_number, whole_number
 from geodesics.arrays import Floats
 from gmds.errors import SolverError
 from gmds.mds.descent import Settler
+from gmds.mds.field_pairs import FieldPairs
 from gmds.mds.frozen_fields import remarch
 from gmds.mds.losses import Loss, as_loss
-from gmds.mds.pair_distances import FieldPairs
 from gmds.mds.problem import Problem
 from gmds.mds.status import Status
 
@@ -65,7 +66,8 @@ class Solution:
     iterations: int
 
     def __repr__(self) -> str:
-        words = f"{len(self.points)} points, stress {self.stress:.4g}, certificate {self.certificate:.2g}"
+        certificate = f"certificate {self.certificate:.2g}" if np.isfinite(self.certificate) else "no certificate"
+        words = f"{len(self.points)} points, stress {self.stress:.4g}, {certificate}"
         return f"Solution({words}, {self.status.name} after {self.iterations})"
 
     def as_meta(self) -> dict[str, Any]:
@@ -116,7 +118,7 @@ def solve(
     SolverError
         When the stress is not finite at the start (E403).
     ValueError
-        When `start` does not fit the problem.
+        When `start` does not fit the problem, for an iteration limit or a tolerance below 0.
 
     See Also
     --------
@@ -138,7 +140,8 @@ def solve(
     """
     if not isinstance(problem, Problem):
         raise TypeError(f"a problem is expected, not {type(problem).__name__}; make one with gmds.Problem")
-    loss, here = as_loss(loss), problem.at(start)
+    max_iterations = whole_number(max_iterations, "max_iterations", 0)
+    tolerance, loss, here = real_number(tolerance, "tolerance", 0.0), as_loss(loss), problem.at(start)
     stress = loss.value(here.residuals)
     if not np.isfinite(stress):
         raise SolverError(f"the stress at the start is {stress}: a distance is not a number")

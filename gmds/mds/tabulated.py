@@ -24,7 +24,7 @@ class TabulatedDistance:
     .. math:: d(x, y)^2 = \sum_k \sigma_k \, (e_k(x) - e_k(y))^2, \qquad \sigma_k = \pm 1
 
     by classical scaling of the squared distances between some farthest points, extended to all vertices. Geodesic
-    distances come out within about a thousandth of their mean. Never n x n: landmarks x n numbers are held while it is
+    distances come out within a few thousandths of their mean. Never n x n: landmarks x n numbers are held while it is
     made, rank x n afterwards.
 
     Parameters

@@ -13,6 +13,7 @@ from geodesics.arguments import whole_number
 from geodesics.arrays import Floats
 from geodesics.distance import as_distance
 from geodesics.errors import BadArgument
+from geodesics.topology.components import vertex_components
 from gmds.canonical_forms.spectral import squared_distances_in_eigenfunctions
 from gmds.spectral_maps.representation import FunctionalMap, points_for
 from gmds.surface.view import View
@@ -120,29 +121,31 @@ def spectral_gmds(
     ours, theirs = ours.first(count), theirs.first(count)
     first, second = _squared(distances[0], ours, samples), _squared(distances[1], theirs, samples)
     unit = np.sqrt((first**2).sum())
+    constant = float(np.sign(ours.functions[ours.usable[0], 0] * theirs.functions[theirs.usable[0], 0]))
     now = FunctionalMap(ours, theirs, _start(ours, theirs, start))
     for size in _sizes(min(*now.matrix.shape), count):
         matrix = np.zeros((size, size))
         k = min(size, *now.matrix.shape)
         matrix[:k, :k] = now.matrix[:k, :k]
-        improved = carried_over(first[:size, :size], second[:size, :size], matrix)
+        improved = carried_over(first[:size, :size], second[:size, :size], matrix, constant)
         points = FunctionalMap(ours, theirs, improved).points()
         now = FunctionalMap.of_points(ours, theirs, points, min(count, 2 * size))
-    matrix = carried_over(first, second, now.matrix)
+    matrix = carried_over(first, second, now.matrix, constant)
     left = matrix.T @ first @ matrix - second
     final = FunctionalMap(ours, theirs, matrix)
     return SpectralPlacement(final, final.points(), float(np.sqrt((left**2).sum()) / unit))
 
 
-def carried_over(first: Floats, second: Floats, start: Floats) -> Floats:
+def carried_over(first: Floats, second: Floats, start: Floats, constant: float = 1.0) -> Floats:
     """The orthogonal matrix C, reached from `start`, for which tr(C^T first C second) rises no more.
 
-    The constant function stays what it is. The rest of squared distances is negative where they are those of points in
-    a Euclidean space, and nearly so else: its negative, shifted by the little that is missing, makes the trace convex,
-    so that the orthogonal matrix that its tangent likes best raises it.
+    The constant function stays what it is, times `constant`, 1 or -1: eigenfunctions have their signs by chance. The
+    rest of squared distances is negative where they are those of points in a Euclidean space, and nearly so else: its
+    negative, shifted by the little that is missing, makes the trace convex, so that the orthogonal matrix that its
+    tangent likes best raises it.
     """
     inner = [_positive(-alpha[1:, 1:]) for alpha in (first, second)]
-    linear = np.outer(first[1:, 0], second[0, 1:])
+    linear = constant * np.outer(first[1:, 0], second[0, 1:])
     turn, value = _nearest_orthogonal(start[1:, 1:]), -np.inf
     for _ in range(STEPS):
         image = inner[0] @ turn @ inner[1]
@@ -151,8 +154,8 @@ def carried_over(first: Floats, second: Floats, start: Floats) -> Floats:
             break
         tangent = image + linear
         turn, value = _nearest_orthogonal(tangent + STAY * np.linalg.norm(tangent) * turn), reached
-    matrix = np.eye(len(first))
-    matrix[1:, 1:] = turn
+    matrix = np.zeros_like(first)
+    matrix[0, 0], matrix[1:, 1:] = constant, turn
     return matrix
 
 
@@ -174,6 +177,8 @@ def _sizes(begin: int, end: int) -> list[int]:
 
 def _squared(distance: Distance, view: View, samples: int) -> Floats:
     """The squared distances of a surface in its eigenfunctions (k, k), over their mean."""
+    if len(np.unique(vertex_components(view.mesh)[view.usable])) > 1:
+        raise BadArgument(f"{view.mesh!r} has several components, and no distances between them; take one of each")
     chosen = farthest_point_sampling(distance, min(samples, len(view.usable)))
     found = squared_distances_in_eigenfunctions(view.spectrum, chosen, distance_matrix(distance, chosen))
     return np.asarray(found / (found[0, 0] * view.functions[view.usable[0], 0] ** 2), dtype=np.float64)

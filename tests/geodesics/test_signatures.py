@@ -176,6 +176,18 @@ def test_bad_times_are_refused(spectrum, times):
         heat_kernel_signature(spectrum, times)
 
 
+@pytest.mark.parametrize("time", [-1.0, np.nan, [0.1, 0.2], "a", None])
+def test_a_kernel_has_one_time(spectrum, time):
+    with pytest.raises(ValueError, match=r"time .*must be a finite number >= 0"):
+        heat_kernel(spectrum, time, [0])
+
+
+def test_there_are_no_more_frequencies_than_times(spectrum):
+    assert scale_invariant_heat_kernel_signature(spectrum, [0.1, 0.2, 0.4], 3).shape[1] == 3
+    with pytest.raises(ValueError, match="n_frequencies must be from 0 to 3"):
+        scale_invariant_heat_kernel_signature(spectrum, [0.1, 0.2, 0.4])
+
+
 def test_uneven_times_are_refused(spectrum):
     with pytest.raises(ValueError, match="constant factor"):
         scale_invariant_heat_kernel_signature(spectrum, [1.0, 2.0, 3.0])

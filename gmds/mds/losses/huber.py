@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from geodesics.arguments import real_number
 from geodesics.arrays import Floats
 from geodesics.errors import BadArgument
 from gmds.mds.losses.base import SmoothLoss
@@ -44,7 +45,7 @@ class Huber(SmoothLoss):
     threshold: float = 0.1
 
     def __post_init__(self) -> None:
-        if not self.threshold > 0:
+        if not real_number(self.threshold, "the positive threshold of Huber's loss") > 0:
             raise BadArgument(f"the threshold of Huber's loss must be positive, not {self.threshold}")
 
     def rho(self, residuals: Floats) -> Floats:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from geodesics.arguments import real_number
 from geodesics.arrays import Floats
 from geodesics.errors import BadArgument
 from gmds.mds.losses.base import SmoothLoss
@@ -45,7 +46,8 @@ class Power(SmoothLoss):
     rounding: float = 1e-3
 
     def __post_init__(self) -> None:
-        if not (1 <= self.exponent < np.inf and 0 < self.rounding < np.inf):
+        numbers = real_number(self.exponent, "exponent"), real_number(self.rounding, "rounding")
+        if not (numbers[0] >= 1 and numbers[1] > 0):
             raise BadArgument(f"{self} needs an exponent of at least 1 and a positive rounding")
 
     def rho(self, residuals: Floats) -> Floats:

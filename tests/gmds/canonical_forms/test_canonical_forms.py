@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from generated_shapes import bumpy_sphere, rectangle
+from generated_shapes import bumpy_sphere, joined, rectangle
 
 import geodesics
 import gmds
@@ -98,6 +98,27 @@ def test_all_squared_distances_are_in_few_numbers() -> None:
     expected = geodesics.distance_matrix(distance, np.arange(mesh.n_vertices)[::7])
     got = np.sqrt(np.maximum(rows @ alpha @ rows.T, 0))
     assert np.sqrt(((got - expected) ** 2).mean()) < 0.02 * expected.mean()
+
+
+@each_method
+def test_what_samples_cannot_reach_has_no_place(method: Any) -> None:
+    here, lone = bumpy_sphere(2), [[9.0, 9.0, 9.0]]
+    two = joined(here, bumpy_sphere(1))
+    known = np.arange(two.n_vertices) < here.n_vertices
+    form = gmds.canonical_form(geodesics.GeodesicDistance(two), method=method, samples=np.arange(0, 150, 5))
+    assert np.array_equal(np.isfinite(form.positions).all(axis=1), known)
+    with pytest.raises(BadArgument, match="out of reach"):
+        _ = form.bent
+    loose = Mesh(np.vstack([lone, here.vertices]), here.faces + 1)  # a vertex on no face
+    form = gmds.canonical_form(geodesics.GeodesicDistance(loose), method=method, samples=60)
+    assert np.isnan(form.positions[0]).all() and np.isfinite(form.positions[1:]).all()
+    assert not form.bent.vertices[0].any()
+
+
+def test_four_vertices_have_a_form_of_three_eigenfunctions() -> None:
+    corners = Mesh(np.vstack([np.zeros(3), np.eye(3)]), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    form = gmds.canonical_form(geodesics.GeodesicDistance(corners), method="spectral")
+    assert form.positions.shape == (4, 3) and form.stress < 0.05
 
 
 @pytest.mark.parametrize(

@@ -6,6 +6,7 @@ from functools import partial
 
 import numpy as np
 import pytest
+import trimesh
 from generated_shapes import ellipsoid, icosphere, joined, rectangle, torus, with_isolated
 
 from geodesics import Mesh, MeshError, SurfacePoints, intrinsic, scale_invariant
@@ -289,3 +290,14 @@ def test_edge_distances_are_never_shorter_than_straight_lines(animal: Mesh) -> N
     assert (distance >= straight - 1e-12).all() and distance[0, 5] == pytest.approx(distance[1, 0])
     pair = joined(icosphere(1), icosphere(1))
     assert np.isinf(edge_distances(pair, np.array([0]))[0]).sum() == pair.n_vertices // 2
+
+
+@pytest.mark.parametrize(
+    "name", ["bending", "caricature", "noise", "remeshing", "similarity", "cut", "holes", "shot_noise"]
+)
+def test_mesh_objects_of_other_libraries_are_taken(name: str) -> None:
+    sphere = trimesh.creation.icosphere(2)
+    ours, theirs = (getattr(d, name)(mesh)[0] for mesh in (Mesh(sphere.vertices, sphere.faces), sphere))
+    np.testing.assert_array_equal(ours.vertices, theirs.vertices)
+    with pytest.raises(TypeError, match="a mesh is expected, not str"):
+        getattr(d, name)("sphere.ply")

@@ -58,6 +58,17 @@ def test_what_came_out_is_told_in_a_line() -> None:
         (lambda: gmds.solve(PROBLEM, POINTS, "huber"), "loss must be one of LeastSquares.*, not 'huber'"),
         (lambda: gmds.solve_by_ladder(PROBLEM, POINTS, gmds.Minimax), "loss must be one of LeastSquares"),
         (lambda: gmds.solve(PROBLEM, [0]), "4 samples need 4 target points, not 1"),
+        (lambda: gmds.solve(PROBLEM, POINTS, max_iterations=-1), "max_iterations must be at least 0"),
+        (lambda: gmds.solve(PROBLEM, POINTS, max_iterations=2.5), "max_iterations must be at least 0"),  # type: ignore
+        (lambda: gmds.solve(PROBLEM, POINTS, tolerance=np.nan), "tolerance must be a finite number >= 0"),
+        (lambda: gmds.solve_by_ladder(PROBLEM, POINTS, tolerance=-1), "tolerance must be a finite number >= 0"),
+        (lambda: gmds.solve_multiresolution(PROBLEM, VERTICES[:2], growth=np.inf), "growth must be a finite number"),
+        (lambda: gmds.solve_multiresolution(PROBLEM, VERTICES[:2], growth="2"), "growth must be a finite number"),  # type: ignore
+        (lambda: gmds.Problem(DISTANCE, VERTICES, DISTANCE, weights=[-1] * 4), "weights must be finite, not negative"),
+        (lambda: gmds.Problem(DISTANCE, VERTICES, DISTANCE, weights="area"), "weights must be an array, not 'area'"),
+        (lambda: gmds.Huber("a"), "threshold of Huber's loss must be a finite number"),  # type: ignore[arg-type]
+        (lambda: gmds.Power("a"), "exponent must be a finite number"),  # type: ignore[arg-type]
+        (lambda: caricature(MESH, 1e6), "exponent 1e.06 is too large"),
         (lambda: gmds.TabulatedDistance(MESH), "a distance is expected, not Mesh"),
         (lambda: gmds.TabulatedDistance([DISTANCE]), "a distance is expected, not list"),
         (lambda: gmds.TabulatedDistance(DISTANCE, 10.5), "a table needs 2 landmarks and rank 1 at least, not 10.5"),

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 from typing import Any
 
 import numpy as np
 import pytest
-from generated_shapes import bumpy_sphere
+from generated_shapes import bumpy_sphere, joined
 from matched_shapes import animal, permuted, reflected
 
 import geodesics
@@ -18,6 +19,12 @@ from gmds.shapes import truth
 from gmds.spectral_maps.operators import multiplication, orientation_operator
 from gmds.spectral_maps.spectral_gmds import carried_over
 from gmds.surface.view import View
+
+
+def twice(mesh: Mesh, count: int) -> object:
+    """Spectral scaling of two components."""
+    distance = geodesics.BiharmonicDistance(joined(mesh, mesh))
+    return gmds.spectral_gmds(distance, distance, np.arange(2 * mesh.n_vertices), count=count)
 
 
 def mean_error(points: SurfacePoints, true: SurfacePoints) -> float:
@@ -132,6 +139,22 @@ def test_steps_of_spectral_scaling_never_raise_the_stress() -> None:
     np.testing.assert_allclose(carried_over(first, first, np.eye(12)), np.eye(12), atol=1e-6)
 
 
+@pytest.mark.parametrize("flipped", [(0,), (0, 3), (5,)])
+def test_signs_of_eigenfunctions_have_no_say_in_spectral_scaling(flipped: tuple[int, ...]) -> None:
+    """Not that of the constant one either: it is as often -1 as 1."""
+    source, target = animal(), animal("walk", seed=1)
+    spectra = [geodesics.eigenpairs(mesh, 20) for mesh in (source, target)]
+    signs = np.ones(20)
+    signs[list(flipped)] = -1
+    other = dataclasses.replace(spectra[1], eigenfunctions=spectra[1].eigenfunctions * signs)
+    ours, theirs, turned = (geodesics.BiharmonicDistance(one) for one in (*spectra, other))
+    found, same = (
+        gmds.spectral_gmds(ours, one, truth(source, target), count=20, samples=60) for one in (theirs, turned)
+    )
+    assert same.stress == pytest.approx(found.stress, rel=1e-9)
+    np.testing.assert_allclose(same.map.matrix, found.map.matrix * signs, atol=1e-9)
+
+
 @pytest.mark.parametrize(
     ("call", "error", "says"),
     [
@@ -143,6 +166,7 @@ def test_steps_of_spectral_scaling_never_raise_the_stress() -> None:
         (lambda m: gmds.functional_map(m, m, 2 * (np.full(m.n_vertices, np.nan),)), BadArgument, "must be finite"),
         (lambda m: gmds.functional_map(m, m, count=8).zoomed_out(1000), BadArgument, "count must be from 1"),
         (lambda m: gmds.functional_map(m, m, count=8).pull_back([1.0]), BadShape, "one for each target vertex"),
+        (lambda m: twice(m, 4), BadArgument, "several"),
         (lambda m: gmds.self_functional_map(m, 1000), BadArgument, "fewer than 1000"),
     ],
 )
