@@ -82,8 +82,8 @@ def spectral_gmds(
     Returns
     -------
     SpectralPlacement
-        With a point for each source vertex. In the metrics :math:`|K|^a g` with a up to 1/2 it improves a rough map;
-        with a = 1 the matrix of least stress is often that of another map.
+        With a point for each source vertex. It improves a rough map in the metrics :math:`|K|^a g` with a from 0 to 1
+        (`benchmarks/results/spectral_gmds.md`).
 
     Raises
     ------
