@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 import numpy.typing
+from sphinx.addnodes import desc_signature
 from sphinx.domains.python import PyObject
 
 HERE = Path(__file__).resolve().parent
@@ -108,6 +109,18 @@ def page_of_a_map(app: Any) -> None:
         live.write_page(Path(app.outdir) / "docs" / "live" / "map.html")
 
 
+def places_for_sources(app: Any, doctree: Any, docname: str) -> None:
+    """Where pages of source lead back to: viewcode knows one name of each module, and pages may use another."""
+    there = {name for node in doctree.findall(desc_signature) for name in node["ids"]}
+    for _, _, used, module in filter(None, getattr(app.env, "_viewcode_modules", {}).values()):
+        for node in doctree.findall(desc_signature):
+            name, place = node.get("fullname"), f"{module}.{node.get('fullname')}"
+            ours = str(node.get("module")).split(".")[0] == module.split(".")[0]
+            if ours and used.get(name) == docname and place not in there:
+                node["ids"].append(place)
+                there.add(place)
+
+
 def setup(app: Any) -> None:
     app.connect("autodoc-process-docstring", docstrings.plain, priority=400)  # before napoleon, which has 500
     mathml.setup(app)
@@ -115,4 +128,5 @@ def setup(app: Any) -> None:
         if field.name == "variable":
             field.label = "Attributes"  # as numpydoc heads them
     app.connect("source-read", complete)
+    app.connect("doctree-resolved", places_for_sources)
     app.connect("builder-inited", page_of_a_map)

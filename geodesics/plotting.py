@@ -85,6 +85,8 @@ def plot(
     """
     try:
         import plotly.graph_objects as go
+
+        from geodesics.plotted import Plotted
     except ImportError as error:
         raise MissingExtra(f"a plot needs plotly; install it with: {how_to_install('viz')}") from error
 
@@ -94,7 +96,7 @@ def plot(
     surface = go.Mesh3d(**_axes(mesh.vertices), **corners, text=np.arange(mesh.n_vertices), **looks)
     surface.update(_colours(values, mesh.n_vertices))
     surface.update(colorbar={"title": {"text": label, "side": "right"}, **BAR})
-    figure = go.Figure(surface)
+    figure = Plotted(surface)
     if points is not None:
         marker = {"size": POINT_SIZE, "color": POINT_COLOUR}
         figure.add_scatter3d(**_axes(as_points(mesh, points).positions), mode="markers", marker=marker, name="points")

@@ -186,7 +186,7 @@ class _Run:
         self.manifest.tell("pair", event(record))
         share = len(self.pairs) / len(self.collection.pairs)
         done = f"{len(self.pairs)} of {len(self.collection.pairs)} pairs"
-        told = f"{done}, {record.source} -> {record.target}: {record.status}"
+        told = f"{done}, {record.source} -> {record.target}: {record.status}{', as before' if record.kept else ''}"
         self.progress(told, MEASURING + (1 - MEASURING - CYCLES) * share)
 
     def result(self) -> Batch:

@@ -93,7 +93,8 @@ def _of_best(answer: PointMap, errors: Floats | None) -> Told:
     elif valid.any() and np.ptp(answer.distortion) > 0:
         found.append((f"{np.median(answer.distortion[valid]):.3g}", "median distortion", "distortion"))
     if answer.candidates:
-        found.append((str(len(answer.candidates)), "other maps to compare", ""))
+        one = len(answer.candidates) == 1
+        found.append((str(len(answer.candidates)), f"other map{'' if one else 's'} to compare", ""))
     found += [(value, name, "error") for name, value in _judged(errors)[:2]]
     status = answer.status
     return Told(*VERDICTS[status], status.value.replace("`", ""), NEXT[status], found, facts(answer, errors))

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import pickle
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -39,6 +41,17 @@ def test_paths_are_lines_with_a_gap_between_them_and_the_bar_says_what_it_shows(
     assert surface.colorbar.title.text == "height / mm"
     with pytest.raises(BadShape, match="a path must be"):
         geodesics.plot(MESH, paths=[[1.0, 2.0]])
+
+
+def test_a_page_is_as_wide_as_its_screen(tmp_path: Path) -> None:
+    pytest.importorskip("plotly")
+    figure = geodesics.plot(MESH)
+    figure.write_html(tmp_path / "page.html", include_plotlyjs=False, post_script="document.title = 'mine';")
+    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert "width=device-width" in page and "document.title = 'mine';" in page
+    assert "width=device-width" in figure.to_html(include_plotlyjs=False)
+    assert "width=device-width" not in figure.to_html(include_plotlyjs=False, full_html=False)  # a part of another page
+    assert pickle.loads(pickle.dumps(figure)).layout == figure.layout
 
 
 def test_colours_and_bad_values() -> None:

@@ -103,10 +103,12 @@ def served(running: Any, place: Any, width: int = 1366, height: int = 650) -> It
         page.on("pageerror", lambda error: said.append(str(error)))
         page.goto(server.link)
         page.wait_for_selector("body[data-ready=yes]")
-        yield page
-        context.close()
-        server.shutdown()
-        thread.join()
+        try:
+            yield page
+        finally:  # else a test that fails would wait for the server for ever
+            context.close()
+            server.shutdown()
+            thread.join()
         assert said == []
 
 

@@ -87,7 +87,9 @@ def test_the_folder_says_what_happened(done: Batch) -> None:
 def test_nothing_is_done_twice(done: Batch, client: Any, tmp_path: Path) -> None:
     folder = copied(done, tmp_path)
     before = {path: path.stat().st_mtime_ns for path in folder.glob("*/*.npz")}
-    again = match_collection(SHAPES, folder, client=client)
+    told: list[str] = []
+    again = match_collection(SHAPES, folder, client=client, progress=lambda stage, _: told.append(stage))
+    assert sum(stage.endswith(", as before") for stage in told) == len(again.pairs)
     assert all(pair.kept for pair in again.pairs) and all(shape.kept for shape in again.shapes.values())
     assert before == {path: path.stat().st_mtime_ns for path in folder.glob("*/*.npz")}
     assert batches.tree(folder) == batches.tree(done.output)

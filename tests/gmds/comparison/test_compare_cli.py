@@ -75,6 +75,7 @@ def test_the_page_is_one_file_without_scripts_that_names_every_shape(done: tuple
     assert "<svg" in page and "<script" not in page and "Content-Security-Policy" in page
     assert not re.search(r'(src|href)="(?!data:|#)', page.replace("xlink:", ""))
     assert all(page.count(name) >= 2 for name in ("blob0", "egg", "ring1"))
+    assert "moves sideways" in page  # shown where the screen is narrower than the picture
     assert (done[0] / "compare.png").read_bytes().startswith(b"\x89PNG")
 
 

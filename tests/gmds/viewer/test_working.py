@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -151,12 +152,15 @@ def test_what_is_painted_as_wrong_goes_elsewhere(pair: SwappedPair, running: Any
     assert leg_errors(pair, answer).mean() < 0.05
 
 
-def test_matching_is_stopped_and_can_begin_again(pair: SwappedPair, running: Any, monkeypatch: Any) -> None:
-    begun = []
+def test_matching_is_stopped_and_can_begin_again(
+    pair: SwappedPair, running: Any, monkeypatch: Any, request: pytest.FixtureRequest
+) -> None:
+    begun, given_up = [], threading.Event()
+    request.addfinalizer(given_up.set)
 
     def endless(*_: Any, progress: Any, **__: Any) -> None:
         begun.append(1)
-        while True:
+        while not given_up.is_set():  # progress() raises when it is to stop
             progress("dreaming", 0.25)
 
     monkeypatch.setattr("gmds.viewer.workplace.matched_again", endless)
