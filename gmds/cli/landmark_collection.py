@@ -71,7 +71,7 @@ def _tell_new_names(folder: Path) -> None:
 def _lines() -> Callable[[str, float], None]:
     """Progress as a line for every thing that is done, where stderr is no terminal."""
     last = [""]
-    note("the template is matched with every specimen, unless its map is there; a line is written for each that is done")
+    note("the template is matched with every specimen, unless its map is there; each that is done has a line")
 
     def tell(stage: str, fraction: float) -> None:
         if stage != last[0]:
