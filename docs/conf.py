@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 import numpy.typing
+from docutils import nodes
 from sphinx.addnodes import desc_signature
 from sphinx.domains.python import PyObject
 
@@ -121,6 +122,16 @@ def places_for_sources(app: Any, doctree: Any, docname: str) -> None:
                 there.add(place)
 
 
+def large_at_a_click(app: Any, doctree: Any, docname: str) -> None:
+    """A picture leads to itself alone: what is written in it cannot be read at the width of a phone."""
+    if app.builder.format != "html":
+        return
+    for image in list(doctree.findall(nodes.image)):
+        if image["uri"] in app.env.images and not isinstance(image.parent, nodes.reference):
+            place = "../" * docname.count("/") + f"{app.builder.imagedir}/{app.env.images[image['uri']][1]}"
+            image.replace_self(nodes.reference("", "", image.deepcopy(), refuri=place, internal=True))
+
+
 def setup(app: Any) -> None:
     app.connect("autodoc-process-docstring", docstrings.plain, priority=400)  # before napoleon, which has 500
     mathml.setup(app)
@@ -129,4 +140,5 @@ def setup(app: Any) -> None:
             field.label = "Attributes"  # as numpydoc heads them
     app.connect("source-read", complete)
     app.connect("doctree-resolved", places_for_sources)
+    app.connect("doctree-resolved", large_at_a_click)
     app.connect("builder-inited", page_of_a_map)

@@ -14,6 +14,7 @@ from geodesics.distance import as_points
 from geodesics.errors import BadArgument, BadShape, MissingExtra
 from geodesics.extras import how_to_install
 from geodesics.mesh import Mesh
+from geodesics.plotted import figure_class
 from geodesics.points import SurfacePoints
 
 # all set by hand
@@ -85,8 +86,6 @@ def plot(
     """
     try:
         import plotly.graph_objects as go
-
-        from geodesics.plotted import Plotted
     except ImportError as error:
         raise MissingExtra(f"a plot needs plotly; install it with: {how_to_install('viz')}") from error
 
@@ -96,7 +95,7 @@ def plot(
     surface = go.Mesh3d(**_axes(mesh.vertices), **corners, text=np.arange(mesh.n_vertices), **looks)
     surface.update(_colours(values, mesh.n_vertices))
     surface.update(colorbar={"title": {"text": label, "side": "right"}, **BAR})
-    figure = Plotted(surface)
+    figure = figure_class()(surface)
     if points is not None:
         marker = {"size": POINT_SIZE, "color": POINT_COLOUR}
         figure.add_scatter3d(**_axes(as_points(mesh, points).positions), mode="markers", marker=marker, name="points")

@@ -177,6 +177,8 @@ class Work extends Asking {
       item.classList.toggle("chosen", i === page.chosenLandmark);
       return item;
     }));
+    const list = at("landmark-list"), row = list.children[page.chosenLandmark];
+    if (row) list.scrollTop = row.offsetTop - list.offsetTop; // the list is low, and the page stays where it is
     page.marks.draw();
   }
 }

@@ -49,6 +49,7 @@ def test_a_page_is_as_wide_as_its_screen(tmp_path: Path) -> None:
     figure.write_html(tmp_path / "page.html", include_plotlyjs=False, post_script="document.title = 'mine';")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     assert "width=device-width" in page and "document.title = 'mine';" in page
+    assert "scene.camera.eye" in page  # farther in a window that is higher than wide
     assert "width=device-width" in figure.to_html(include_plotlyjs=False)
     assert "width=device-width" not in figure.to_html(include_plotlyjs=False, full_html=False)  # a part of another page
     assert pickle.loads(pickle.dumps(figure)).layout == figure.layout

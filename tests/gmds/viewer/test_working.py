@@ -152,6 +152,18 @@ def test_what_is_painted_as_wrong_goes_elsewhere(pair: SwappedPair, running: Any
     assert leg_errors(pair, answer).mean() < 0.05
 
 
+def test_a_new_landmark_is_seen_below_many(pair: SwappedPair, running: Any) -> None:
+    place = Workplace(pair.wrong, ("dog.ply", "wolf.off"))
+    places = [mesh.vertices[0].tolist() for mesh in (pair.wrong.source, pair.wrong.target)]
+    place.keep({"landmarks": [{"name": f"mark {i}", "at": places} for i in range(20)], "wrong": []})
+    with served(running, place) as page:
+        page.click("#tool-place")
+        click_on(page, 0, int(pair.wrong.source.vertices[:, 2].argmax()))
+        box, row = (page.locator(f"#landmark-list{which}").bounding_box() for which in ("", " li.chosen"))
+        assert box["y"] - 1 <= row["y"] and row["y"] + row["height"] <= box["y"] + box["height"] + 1
+        assert page.evaluate("scrollY") == 0
+
+
 def test_matching_is_stopped_and_can_begin_again(
     pair: SwappedPair, running: Any, monkeypatch: Any, request: pytest.FixtureRequest
 ) -> None:
