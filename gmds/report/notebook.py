@@ -55,4 +55,4 @@ def _picture(answer: PointMap) -> str:
         return ""
     data = base64.b64encode(picture).decode("ascii")
     text = html.escape("source and target; corresponding points have the same colour")
-    return f'<img alt="{text}" src="data:image/png;base64,{data}">'
+    return f'<img style="max-width: 100%" alt="{text}" src="data:image/png;base64,{data}">'

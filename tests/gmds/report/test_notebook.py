@@ -88,6 +88,7 @@ def test_with_anywidget_a_map_is_the_page(tmp_path: Path) -> None:
     answer = identity()
     bundle = answer._repr_mimebundle_()
     assert "application/vnd.jupyter.widget-view+json" in bundle and "<img" in bundle["text/html"]
+    assert "max-width: 100%" in bundle["text/html"]  # a narrow cell shows all of it
     view = gmds.report.notebook.widget(answer)
     script = (
         str(view._esm).replace("export default", "const shown =")
