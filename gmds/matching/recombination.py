@@ -3,12 +3,13 @@
 Of many maps one has the neck right and another the legs, and none both. Where another map leads elsewhere than the
 likeliest, connected region by connected region, the simplified source is sent where the other has it, and registered
 anew; what is likelier replaces the likeliest, until nothing is (the crossover of genetic algorithms, which ENIGMA does
-with maps of landmarks: Edelstein, Ezuz, Ben-Chen 2020; here nothing is random).
+with maps of landmarks: Edelstein, Ezuz, Ben-Chen 2020; here nothing is random). What none has, a head the right way
+round, may come of a region that is laid on the target anew (`gmds.matching.realignment`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -19,6 +20,7 @@ from geodesics.threads import side_by_side
 from geodesics.topology.edges import components, edges
 from gmds.matching.pair import SurfacePair
 from gmds.matching.proposals import Proposal, cheapest
+from gmds.matching.realignment import realigned
 from gmds.registration.deformable import DeformableMesh
 from gmds.registration.register import Registered, register, settled
 from gmds.registration.settings import COARSE, SIMPLIFIED, TO_IMAGES
@@ -49,7 +51,9 @@ def recombined(pair: SurfacePair, maps: Sequence[Proposal], more: Sequence[Regis
     found: list[Proposal] = []
     tried: list[Floats] = []
     for _ in range(MOST_ROUNDS):
-        places = list(_hybrids(source, best.registered.y, [one.y for one in others], tried))
+        y = best.registered.y
+        hybrids = [*_hybrids(source, y, [one.y for one in others]), *realigned(source, target, y)]
+        places = _untried(source, hybrids, tried)
         begun = side_by_side(lambda place: register(source, target, place, begin), places)
         there = side_by_side(lambda one: settled(source, target, one.y, settle), cheapest(begun)[:MOST_SETTLED])
         back = side_by_side(lambda one: Proposal.completed(pair, one, SIMPLIFIED), cheapest(there)[:MOST_RETURNED])
@@ -84,14 +88,21 @@ def exchanged(masks: Sequence[Bools], one: Floats, other: Floats) -> list[Bools]
     return [np.asarray(np.any([masks[i] for i in several], axis=0)) for several in joined if len(several) > 1]
 
 
-def _hybrids(source: DeformableMesh, best: Floats, others: Sequence[Floats], tried: list[Floats]) -> Iterator[Floats]:
-    """Where vertices go (n, 3) by the best map and, in one region, by another; not what was `tried`, which grows."""
+def _hybrids(source: DeformableMesh, best: Floats, others: Sequence[Floats]) -> Iterator[Floats]:
+    """Where vertices go (n, 3) by the best map and, in one region, by another."""
     for other in others:
         for region in regions(source, best, other):
-            y = np.where(region[:, None], other, best)
-            if all(source.areas @ ((y - before) ** 2).sum(axis=1) > SAME**2 for before in tried):
-                tried.append(y)
-                yield y
+            yield np.where(region[:, None], other, best)
+
+
+def _untried(source: DeformableMesh, places: Iterable[Floats], tried: list[Floats]) -> list[Floats]:
+    """Where vertices go (n, 3), but for what nearly repeats what was `tried`, which grows."""
+    found = []
+    for y in places:
+        if all(source.areas @ ((y - before) ** 2).sum(axis=1) > SAME**2 for before in tried):
+            tried.append(y)
+            found.append(y)
+    return found
 
 
 def _unlikeliness(one: Proposal) -> float:

@@ -12,6 +12,7 @@ from scipy.spatial import cKDTree
 from geodesics.arrays import Floats, Integers
 from geodesics.caching import cached_property, memoized
 from gmds._kernels.alignments import alignment_costs, refined_alignments
+from gmds.parts.boxes import CELLS, box_around
 from gmds.parts.extremities import near_boundary
 from gmds.registration.deformable import DeformableMesh
 from gmds.surface.measured import Surface
@@ -23,8 +24,6 @@ FRAME_RADIUS = 0.12  # root areas around a point over which the direction of its
 SAME_SIDE = 0.2  # cosine of normals there, below which a point lies on another sheet
 STEP_OF_SIZE = 1.19  # from one size that is tried to the next: closest points bridge half of that
 POINTS = 150  # of each surface, between which a similarity is judged
-GRID = 40  # cells along the longest side of the box around a surface
-MARGIN = 0.25  # root areas of that box around the surface
 REACH = 0.12  # root areas: what is as far from the other surface as that belongs to nothing there
 FINE_REACH = 0.08  # the same, once closest points have been sought
 TURN = 0.5  # of 1 - cosine of normals, beside the squared gap over the squared reach: normals at 180 degrees say no
@@ -73,7 +72,7 @@ class Judged:
 
     surface: Surface
     mesh: DeformableMesh
-    grid: int = GRID
+    grid: int = CELLS
 
     @cached_property
     def points(self) -> Integers:
@@ -91,15 +90,15 @@ class Judged:
     def arrays(self) -> tuple[Any, ...]:
         """What the kernels take: points, normals and areas; cells, their corner and step; vertices, normals, edge."""
         samples, areas = self._cells
-        low, step, cells = self._grid
+        box = box_around(self.mesh, self.grid)
         normals = full_normals(self.surface)
         return (
             np.ascontiguousarray(self.surface.mesh.vertices[samples]),
             np.ascontiguousarray(normals[samples]),
             areas / areas.sum(),
-            cells,
-            low,
-            step,
+            box.cells,
+            box.low,
+            box.step,
             np.ascontiguousarray(self.mesh.mesh.vertices),
             np.ascontiguousarray(self.mesh.normals),
             self._edge,
@@ -111,17 +110,6 @@ class Judged:
         faces, edge = self.mesh.mesh.faces, self.mesh.boundary.copy()
         edge[faces[edge[faces].any(axis=1)]] = True
         return edge
-
-    @cached_property
-    def _grid(self) -> tuple[Floats, float, NDArray[np.int32]]:
-        """The closest vertex of every cell of a box around the surface."""
-        places = self.mesh.mesh.vertices[self.mesh.usable]
-        low, high = places.min(axis=0) - MARGIN, places.max(axis=0) + MARGIN
-        step = float((high - low).max() / self.grid)
-        counts = np.ceil((high - low) / step).astype(np.int64) + 1
-        box = low + step * np.moveaxis(np.indices(counts), 0, -1)
-        near = cKDTree(places).query(box.reshape(-1, 3))[1]
-        return low, step, self.mesh.usable[near].reshape(box.shape[:3]).astype(np.int32)
 
 
 @memoized
