@@ -127,9 +127,10 @@ def _better(one: Patch, other: Patch, y: Floats, middle: Floats) -> Iterator[Lai
     costs = _refined(tried, ours, theirs, one.size, FIRST_STEPS)
     tried = tried[np.append(0, 1 + np.argsort(costs[1:], kind="stable")[:MOST_REFINED])]
     costs = _refined(tried, ours, theirs, one.size, STEPS - FIRST_STEPS)
-    places, kept = tried.moved(one.places), []
+    places = tried.moved(one.places)
+    kept: list[Floats] = []
     for row in np.argsort(costs, kind="stable"):
-        if len(kept) == PLACES or costs[row] > LEAST_COST * costs[0]:
+        if len(kept) == PLACES or costs[row] >= LEAST_COST * costs[0]:
             return
         if all(_apart(one, places[row], before) > APART for before in [y, *kept]):
             kept.append(places[row])

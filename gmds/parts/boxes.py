@@ -1,4 +1,4 @@
-"""A box of cells around a simplified surface, each of which names the closest vertex: found at once, to within a cell."""
+"""A box of cells around a simplified surface that name the closest vertex: it is found at once, to within a cell."""
 
 from __future__ import annotations
 

@@ -86,7 +86,7 @@ def test_what_is_right_stays(pair: SurfacePair, right: Floats) -> None:
 
 
 def test_an_animal_with_small_ears_keeps_its_nose() -> None:
-    """Of 1,500 vertices; without regions laid anew the nose was an ear, and the map GOOD, in four of nine such pairs."""
+    """Of 1,500 vertices; without regions laid anew the nose was an ear, and the map GOOD, in four of nine pairs."""
     source, target = quadruped(n_vertices=1500, seed=11), quadruped("turn", ear_scale=0.6, n_vertices=1500, seed=14)
     answer = gmds.match(source, target)
     errors = np.linalg.norm(answer.points.positions - truth(source, target).positions, axis=1) / np.sqrt(target.area)
