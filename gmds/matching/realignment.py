@@ -20,7 +20,7 @@ from geodesics.arrays import Bools, Floats, Integers
 from gmds._kernels.alignments import alignment_costs, refined_alignments
 from gmds._kernels.rotations import nearest_rotations
 from gmds.parts.alignments import MISSING, STEPS, TURN, Similarities
-from gmds.parts.boxes import box_around
+from gmds.parts.boxes import CELLS, box_around
 from gmds.registration.deformable import DeformableMesh
 
 # Points that regions lie around, shares of the area that they have, and how much larger the part of the target is that
@@ -103,7 +103,7 @@ class Patch:
 
         What comes nearest to a vertex outside, or on the rim, of the region has nothing there.
         """
-        places, normals, box = self.mesh.mesh.vertices, self.mesh.normals, box_around(self.mesh)
+        places, normals, box = self.mesh.mesh.vertices, self.mesh.normals, box_around(self.mesh, CELLS)
         ours = self.places, np.ascontiguousarray(normals[self.vertices]), self.areas
         return (*ours, *box, places, np.ascontiguousarray(normals), self._outside())
 

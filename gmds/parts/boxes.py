@@ -25,7 +25,7 @@ class Box(NamedTuple):
 
 
 @memoized
-def box_around(mesh: DeformableMesh, count: int = CELLS) -> Box:
+def box_around(mesh: DeformableMesh, count: int) -> Box:
     """The box around a surface, `count` cells long."""
     places = mesh.mesh.vertices[mesh.usable]
     low, high = places.min(axis=0) - MARGIN, places.max(axis=0) + MARGIN
