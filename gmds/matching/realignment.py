@@ -148,7 +148,8 @@ def _fitted(one: Patch, y: Floats) -> Similarities:
     x, areas = one.places, one.areas
     x, goals = x - areas @ x, y - areas @ y
     rotations, sums = nearest_rotations(np.ascontiguousarray(((areas[:, None] * x).T @ goals)[None]))
-    sizes = np.clip(sums / (areas @ (x**2).sum(axis=1)), *SIZES)
+    spread = max(float(areas @ (x**2).sum(axis=1)), np.finfo(float).tiny)  # that of a region in one place is 0
+    sizes = np.clip(sums / spread, *SIZES)
     return Similarities(rotations, sizes, areas @ y - sizes * (rotations @ (areas @ one.places)))
 
 
