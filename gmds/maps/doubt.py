@@ -25,6 +25,10 @@ class DoubtfulRegion(NamedTuple):
     confidence: float
     vertices: Integers
 
+    def __repr__(self) -> str:
+        how_sure = f"share={self.share:.3f}, confidence={self.confidence:.2f}"
+        return f"DoubtfulRegion(center={self.center}, {how_sure}, {len(self.vertices)} vertices)"
+
     def as_data(self) -> dict[str, float]:
         """As JSON has it, without the vertices."""
         return {"vertex": self.center, "share": self.share, "confidence": self.confidence}

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
 from geodesics import GeodesicDistance, SurfacePoints, embedded
@@ -64,7 +65,7 @@ def realigned(source: DeformableMesh, target: DeformableMesh, y: Floats) -> list
 def laid_anew(source: DeformableMesh, target: DeformableMesh, y: Floats) -> list[Laid]:
     """Regions with places that fit better than where the map to y (n, 3) sends them, the best first."""
     centres, around = _spread(source)
-    images = target.places.query(y[centres])[1]
+    images = target.usable[cKDTree(target.mesh.vertices[target.usable]).query(y[centres])[1]]
     there = _distances(target, images)
     found: list[Laid] = []
     for here, beyond in zip(around, there, strict=True):

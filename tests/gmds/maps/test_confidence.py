@@ -11,7 +11,7 @@ from geodesics import Mesh, SurfacePoints
 from gmds import Correspondence
 from gmds.errors import MapError
 from gmds.maps.confidence import RADII, confidence_at
-from gmds.maps.doubt import DOUBT, doubtful_regions
+from gmds.maps.doubt import DOUBT, DoubtfulRegion, doubtful_regions
 from gmds.maps.images import confidence_between
 from gmds.maps.npz_format import OPTIONAL
 from tests.support.generated_shapes import bumpy_sphere, rectangle
@@ -112,3 +112,8 @@ def test_what_is_not_valid_not_rated_or_tiny_is_no_region() -> None:
     assert on_a_strip(np.full(n, DOUBT)) == []
     assert on_a_strip(np.where(np.arange(n) == 5, 0.0, 1.0)) == []
     assert len(on_a_strip(low)) == 1 and on_a_strip(low)[0][1] == pytest.approx(1.0)
+
+
+def test_a_doubtful_region_is_told_in_a_line() -> None:
+    region = DoubtfulRegion(7, 0.0421, 0.318, np.arange(500))
+    assert repr(region) == "DoubtfulRegion(center=7, share=0.042, confidence=0.32, 500 vertices)"
