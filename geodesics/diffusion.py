@@ -140,6 +140,9 @@ class DiffusionDistance(_SpectralDistance):
         fade = np.exp(-spectrum.eigenvalues * (time * spectrum.mass.sum()))
         self._set(spectrum, spectrum.eigenfunctions * fade)
 
+    def __repr__(self) -> str:
+        return f"DiffusionDistance({self.embedding.shape[1]} coordinates at time {self.time:g} on {self.mesh!r})"
+
 
 class CommuteTimeDistance(_SpectralDistance):
     r"""Commute-time distance (3.2); infinite between components.

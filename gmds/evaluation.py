@@ -112,7 +112,9 @@ def geodesic_error(
     >>> float(gmds.geodesic_error(answer, true).max().round(6))
     0.0
     """
-    points = answer if isinstance(answer, SurfacePoints) else answer.points
+    points = answer if isinstance(answer, SurfacePoints) else getattr(answer, "points", None)
+    if not isinstance(points, SurfacePoints):
+        raise TypeError(f"a map or its points are expected, not {type(answer).__name__}; of a matrix take .points()")
     if source_indices is not None:
         points = points[_checked(source_indices, len(points))]
     target = points.mesh

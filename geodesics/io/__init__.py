@@ -180,6 +180,8 @@ def write_mesh(mesh: Mesh, path: str | os.PathLike[str]) -> list[Note]:
     >>> notes  # nothing was lost
     []
     """
+    if not isinstance(path, (str, os.PathLike)):
+        raise TypeError(f"a path is expected after the mesh, not {type(path).__name__}: write_mesh(mesh, path)")
     path, mesh = Path(path), Mesh.from_object(mesh)
     named = unpacked_name(path)
     if named != path and named.suffix.lower() in (".vert", ".tri"):

@@ -91,8 +91,10 @@ def gromov_hausdorff_bounds(
 def finite_square(distances: ArrayLike) -> Floats:
     """A matrix of distances (p, p); `BadArgument` (E604) where it is not."""
     d = real_numbers(distances, "distances")
-    if d.ndim != 2 or d.shape[0] != d.shape[1] or len(d) == 0 or not np.isfinite(d).all():
-        raise BadArgument(f"distances must be a square, finite matrix, not of shape {d.shape}")
+    if d.ndim != 2 or d.shape[0] != d.shape[1] or len(d) == 0:
+        raise BadArgument(f"distances must be a square matrix, not of shape {d.shape}")
+    if not np.isfinite(d).all():
+        raise BadArgument("distances must be finite: take samples of one component, which can reach each other")
     if (d < 0).any() or d.max() > LARGEST:
         raise BadArgument(f"distances must be from 0 to {LARGEST:g}, not {d.min():.3g} to {d.max():.3g}")
     if np.abs(d - d.T).max() > ASYMMETRY * d.max() or np.diagonal(d).any():

@@ -65,8 +65,10 @@ def gromov_wasserstein_bounds(
     0.0
     """
     a, b = finite_square(first), finite_square(second)
-    if a.shape != b.shape or order not in ORDERS:
-        raise BadArgument(f"needs as many samples of both, {len(a)} and {len(b)}, and an order of 1 or 2, not {order}")
+    if order not in ORDERS:
+        raise BadArgument(f"order must be one of {', '.join(map(str, ORDERS))}, not {order!r}")
+    if a.shape != b.shape:
+        raise BadArgument(f"as many samples are needed of both surfaces, not {len(a)} and {len(b)}")
     local = cdist(np.sort(a, axis=1), np.sort(b, axis=1), _power_mean, r=order) ** order
     assigned = linear_sum_assignment(local)
     third = 0.5 * float(local[assigned].mean()) ** (1 / order)

@@ -88,8 +88,10 @@ def solve_multiresolution(
     """
     start = as_points(problem.target_distance.mesh, start)
     count = len(start)
-    if not 2 <= count <= len(problem) or not real_number(growth, "growth") > 1:
-        raise BadArgument(f"cannot grow {count} of {len(problem)} samples by a factor of {growth}: need 2 and above 1")
+    if not real_number(growth, "growth") > 1:
+        raise BadArgument(f"growth, of the samples from one level to the next, must be above 1, not {growth}")
+    if not 2 <= count <= len(problem):
+        raise BadArgument(f"start places {count} of {len(problem)} samples: it must be those of the first 2 or more")
     levels = [count]
     while levels[-1] < len(problem):
         levels.append(min(len(problem), int(np.ceil(growth * levels[-1]))))

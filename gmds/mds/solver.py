@@ -37,7 +37,8 @@ class Solution:
         Why the solver ended.
     certificate : float
         The linearised problem can lower the stress by no more than this share of it, the points staying in their faces,
-        and in the faces around them in turn for points on edges and vertices; inf where the iteration limit came first.
+        and in the faces around them in turn for points on edges and vertices; inf where the iteration limit came first,
+        or all points lie in one place, where distances have no derivative and nothing parts them.
     certificate_radius : float
         The trust region of that problem, in mean distances a point.
     iterations : int
@@ -145,6 +146,8 @@ def solve(
     stress = loss.value(here.residuals)
     if not np.isfinite(stress):
         raise SolverError(f"the stress at the start is {stress}: a distance is not a number")
+    if stress > 0 and len(here.lengths) and not here.lengths.any():  # where distances have no derivative
+        return Solution(here.points, stress, here.residuals, Status.STALLED, np.inf, 0.0, 0)
 
     def report(iteration: int) -> None:
         if progress is not None:

@@ -116,8 +116,8 @@ def spectral_gmds(
     distances = as_distance(source_distance), as_distance(target_distance)
     count, samples = whole_number(count, "count", 2), whole_number(samples, "samples", 2)
     ours, theirs = (View.of(_spectrum(each, count)) for each in distances)
-    if min(ours.functions.shape[1], theirs.functions.shape[1]) < count:
-        raise BadArgument(f"both surfaces need {count} eigenfunctions")
+    have = min(ours.functions.shape[1], theirs.functions.shape[1])
+    count = whole_number(count, "count", 2, have, "the eigenfunctions that both surfaces have")
     ours, theirs = ours.first(count), theirs.first(count)
     first, second = _squared(distances[0], ours, samples), _squared(distances[1], theirs, samples)
     unit = np.sqrt((first**2).sum())

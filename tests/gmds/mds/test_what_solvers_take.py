@@ -64,6 +64,8 @@ def test_what_came_out_is_told_in_a_line() -> None:
         (lambda: gmds.solve_by_ladder(PROBLEM, POINTS, tolerance=-1), "tolerance must be a finite number >= 0"),
         (lambda: gmds.solve_multiresolution(PROBLEM, VERTICES[:2], growth=np.inf), "growth must be a finite number"),
         (lambda: gmds.solve_multiresolution(PROBLEM, VERTICES[:2], growth="2"), "growth must be a finite number"),  # type: ignore
+        (lambda: gmds.solve_multiresolution(PROBLEM, VERTICES, growth=1), "growth, of the .* must be above 1, not 1"),
+        (lambda: gmds.solve_multiresolution(PROBLEM, [0]), "start places 1 of 4 samples: .* first 2 or more"),
         (lambda: gmds.Problem(DISTANCE, VERTICES, DISTANCE, weights=[-1] * 4), "weights must be finite, not negative"),
         (lambda: gmds.Problem(DISTANCE, VERTICES, DISTANCE, weights="area"), "weights must be an array, not 'area'"),
         (lambda: gmds.Huber("a"), "threshold of Huber's loss must be a finite number"),  # type: ignore[arg-type]
@@ -76,9 +78,22 @@ def test_what_came_out_is_told_in_a_line() -> None:
         (lambda: gmds.canonical_form([MESH]), "a distance is expected, not list"),
         (lambda: gmds.functional_map([MESH], MESH), "a spectrum is expected, not list"),
         (lambda: gmds.spectral_gmds(MESH, DISTANCE, VERTICES), "a distance is expected, not Mesh"),
+        (lambda: gmds.spectral_gmds(DISTANCE, DISTANCE, range(42), count=99), "count must be from 2 to 42, the eigenf"),
         (lambda: gmds.self_functional_map([MESH]), "a mesh is expected, not list"),
         (lambda: gmds.gromov_hausdorff_bounds(MESH, MESH), "distances must be an array, not Mesh$"),
         (lambda: gmds.gromov_wasserstein_bounds(DISTANCE, DISTANCE), "distances must be an array, not CommuteTime"),
+        (
+            lambda: gmds.gromov_wasserstein_bounds(np.eye(2) * 0, np.eye(2) * 0, order=3),
+            "order must be one of 1, 2, not 3",
+        ),
+        (lambda: gmds.gromov_wasserstein_bounds([[0]], np.eye(2) * 0), "as many samples are needed of both surfaces"),
+        (lambda: gmds.gromov_hausdorff_bounds([[0]], np.ones((1, 2))), r"a square matrix, not of shape \(1, 2\)"),
+        (lambda: gmds.gromov_hausdorff_bounds([[0]], [[np.inf]]), "distances must be finite: take samples of one comp"),
+        (
+            lambda: gmds.geodesic_error(gmds.functional_map(MESH, MESH, count=5), POINTS),
+            "are expected, not FunctionalMap",
+        ),
+        (lambda: geodesics.write_mesh("mesh.ply", MESH), "a path is expected after the mesh, not Mesh"),  # type: ignore
         (lambda: gmds.distance_profile([MESH]), "a mesh is expected, not list"),
         (lambda: gmds.least_distortion(MESH, MESH), "must be an array, not Mesh$"),
         (lambda: gmds.least_distortion(np.zeros((2, 3)), np.zeros((2, 3))), "profiles must be of one shape"),
@@ -90,3 +105,12 @@ def test_what_came_out_is_told_in_a_line() -> None:
 def test_what_would_do_is_told(call: Any, says: str) -> None:
     with pytest.raises((TypeError, ValueError), match=says):
         call()
+
+
+def test_points_in_one_place_are_no_answer() -> None:
+    solution = gmds.solve(PROBLEM, [5, 5, 5, 5])
+    assert solution.status is gmds.Status.STALLED and np.isinf(solution.certificate) and solution.stress > 1
+
+
+def test_a_diffusion_distance_says_its_time() -> None:
+    assert "coordinates at time 0.25 on Mesh(42 vertices" in repr(geodesics.DiffusionDistance(MESH, 0.25))
