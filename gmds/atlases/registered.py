@@ -174,7 +174,8 @@ class Atlas:
             found = cls(**members, changes=tuple(read["changes"].tolist()), failures=failures)
             _check(found, read)
         except (ValueError, KeyError, IndexError, TypeError) as error:
-            raise AtlasFileError(f"{path} is no atlas that `gmds atlas` wrote ({error})") from error
+            why = f"it has no array {error}" if isinstance(error, KeyError) else error
+            raise AtlasFileError(f"{path} is no atlas that `gmds atlas` wrote ({why})") from error
         return found
 
 

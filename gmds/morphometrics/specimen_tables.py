@@ -48,15 +48,33 @@ def read_column(path: Path, column: str, names: Sequence[str]) -> NDArray[np.gen
     words = [_said_of(name, said) for name in names]
     absent = [name for name, word in zip(names, words, strict=True) if word.casefold() in UNKNOWN]
     if absent:
-        raise BadGroups(f"{path} says nothing of {absent[0]} under {column} ({len(absent)} such specimens)")
-    try:
-        found = np.array([float(plain_number(word)) for word in words])
-    except ValueError:
+        others = f"; its rows are of {_first(said)}" if len(absent) == len(names) and said else ""
+        one_of = f"one of {len(absent)} of {len(names)} specimens without a word"
+        raise BadGroups(f"{path} says nothing of {absent[0]} under {column} ({one_of}){others}")
+    numbers = [_number(word) for word in words]
+    if None in numbers:
+        if numbers.count(None) < len(numbers) and 2 * len(set(words)) > len(words):  # hardly groups: a slip in one cell
+            name, word = next((n, w) for n, w, x in zip(names, words, numbers, strict=True) if x is None)
+            raise BadGroups(f"{path}: {column} of {name} is {word!r}, no number, and others are numbers")
         return np.array(words, dtype=np.str_)
+    found = np.array(numbers, dtype=np.float64)
     for name, number in zip(names, found, strict=True):
         if not np.isfinite(number):
             raise BadGroups(f"{path}: {column} of {name} is {number}, which is no number to compare with")
     return found
+
+
+def _number(word: str) -> float | None:
+    """A word as a number; None where it is none."""
+    try:
+        return float(plain_number(word))
+    except ValueError:
+        return None
+
+
+def _first(said: Mapping[str, str]) -> str:
+    """The first three names of a table."""
+    return ", ".join([*itertools.islice(said, 3), *(["..."] if len(said) > 3 else [])])
 
 
 def _rows(path: Path) -> list[list[str]]:

@@ -42,6 +42,8 @@ def test_specimens_go_by_the_names_of_their_files(tmp_path: Path, part: str, end
         ("a,1\nrex_v2,inf\nkäfer.b,3\n", "rex_v2 is inf"),
         ("a,x\na,y\nrex_v2,y\nkäfer.b,y\n", "row 3: a is y here and x before"),
         ("a.ply,x\na.obj,y\nrex_v2,y\nkäfer.b,y\n", "nothing of a "),  # which of the two?
+        ("foo,1\nbar,2\n", "nothing of a under group .*of 3 of 3 .*rows are of foo, bar$"),
+        ("a,1\nrex_v2,2\nkäfer.b,3O\n", "group of käfer.b is '3O', no number, and others are numbers"),
         ("a,x\n\0,y\n", "nothing of|no table"),
     ],
 )
@@ -98,3 +100,9 @@ def test_files_whose_arrays_disagree_are_refused(tmp_path: Path) -> None:
             np.savez(tmp_path / "bad.npz", **{**whole, **change})
             with pytest.raises(error, match=r"E23[34]: .*bad\.npz"):
                 load(tmp_path / "bad.npz")
+
+
+def test_an_archive_of_something_else_is_no_atlas(tmp_path: Path) -> None:
+    np.savez(tmp_path / "other.npz", names=["a"])
+    with pytest.raises(AtlasFileError, match=r"E234: .*it has no array 'status'"):
+        Atlas.load(tmp_path / "other.npz")
