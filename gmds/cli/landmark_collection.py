@@ -26,6 +26,7 @@ def landmark_collection(folder: Path, template: Path, landmarks: Path, output: P
     from gmds.specimens.tables import write_tables
 
     figure_class()  # before hours of work
+    template = _specimen(folder, template)
     marks = landmarks_of(landmarks, options["space"], read_mesh(template), template, options["specimen"])
     if options["slide"] is not None and not curve_triples(marks.lists):
         raise click.UsageError(f"--slide is for points of curves, and {landmarks} holds no curve")
@@ -55,6 +56,18 @@ def landmark_collection(folder: Path, template: Path, landmarks: Path, output: P
     emit(result, options["as_json"])
     if found.failures:
         raise click.exceptions.Exit(UNFINISHED)
+
+
+def _specimen(folder: Path, template: Path) -> Path:
+    """The file of the template, which may be called as specimens of the folder are in tables, or by its file there."""
+    from gmds.batch.collection import names
+    from gmds.files.folders import mesh_files
+
+    if template.exists():
+        return template
+    paths = mesh_files(folder)
+    called = {path.name: path for path in paths} | dict(zip(names(paths), paths, strict=True))
+    return called.get(str(template), template)
 
 
 def _tell_new_names(folder: Path) -> None:

@@ -38,7 +38,9 @@ class FileOrFolder(OutputFile):
 @click.argument("landmarks", type=FILE, required=False)
 @click.argument("target", type=FILE, required=False)
 @click.option("-o", "--output", required=True, type=FileOrFolder(), help="Where the landmarks go; see above.")
-@click.option("--template", type=FILE, help="The mesh that has landmarks, when SOURCE is a folder of specimens.")
+@click.option(
+    "--template", type=FILE, help="The mesh that has landmarks, or its name in SOURCE, a folder of specimens."
+)
 @click.option("--landmarks", "template_landmarks", type=FILE, help="The landmarks of the template.")
 @click.option("--workers", type=click.IntRange(min=1), help="Processes for a folder.  [default: one a processor]")
 @click.option("--slide", type=click.Choice(["bending", "procrustes"]), help="Slide points of curves, in a folder.")

@@ -48,8 +48,8 @@ def done(tmp_path_factory: pytest.TempPathFactory) -> Done:
     return out, folder, template, walking, marks
 
 
-def gmds_landmarks(folder: Path, out: Path) -> Result:
-    named = ["--template", folder / "template.ply", "--landmarks", folder / "template.csv", "-o", out]
+def gmds_landmarks(folder: Path, out: Path, template: str | Path | None = None) -> Result:
+    named = ["--template", template or folder / "template.ply", "--landmarks", folder / "template.csv", "-o", out]
     return CliRunner().invoke(main, ["landmarks", *map(str, [folder, *named]), "--workers", "1", "--json"])
 
 
@@ -136,6 +136,18 @@ def test_it_goes_on_where_it_was_and_makes_nothing_again(done: Done) -> None:
     again = {path.name: path.stat().st_mtime_ns for path in (done[0] / "maps" / "pairs").iterdir()}
     assert {name for name in maps if again[name] != maps[name]} == {gone}
     assert (done[0] / "landmarks.csv").read_bytes() == before
+
+
+@pytest.mark.parametrize("name", ["template", "template.ply"])
+def test_the_template_goes_by_its_name_in_the_folder(done: Done, name: str) -> None:
+    before = (done[0] / "landmarks.csv").read_bytes()
+    assert gmds_landmarks(done[1], done[0], name).exit_code == 3  # as with its path: one file is broken
+    assert (done[0] / "landmarks.csv").read_bytes() == before
+
+
+def test_a_name_of_no_specimen_is_told(done: Done, tmp_path: Path) -> None:
+    told = gmds_landmarks(done[1], tmp_path / "out", "tenplate")
+    assert told.exit_code != 0 and "tenplate" in told.output
 
 
 def test_only_what_can_be_seen_is_named() -> None:
