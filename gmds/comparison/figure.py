@@ -53,6 +53,10 @@ def comparison_figure(names: Sequence[str], matrix: Floats, pictures: Sequence[F
     middle.set_yticks([])
     if len(names) <= MOST_NUMBERED:
         _write_values(middle, matrix[np.ix_(order, order)])
+        middle.set_xticks(np.arange(len(names)), [names[i] for i in order], fontsize=size, rotation=45, ha="right")
+        middle.tick_params(axis="x", length=0)
+        for label, colour in zip(middle.get_xticklabels(), colours[order], strict=True):
+            label.set_color(0.65 * colour)
     figure.colorbar(shown, ax=middle, fraction=0.04, pad=0.02, label="share by which distances differ")
     labels = _draw_map(right, names, family, plane_map(matrix), colours, title)
     for axis, text in ((left, "tree"), (middle, "dissimilarity"), (right, "map (classical multidimensional scaling)")):

@@ -44,7 +44,7 @@ class Work extends Asking {
     at("brush-choice").hidden = tool !== "wrong";
     this.page.chosenLandmark = -1;
     if (tool) { at("morph").value = 0; this.page.morph(); }
-    this.page.idle = { place: "Click a point on one surface, then the same point on the other. Drag a diamond to move it. Drag beside it turns, as ever.",
+    this.page.idle = { place: "Click or tap a point on one surface, then the same point on the other. Drag a diamond to move it. Drag beside it turns, as ever.",
       wrong: "Paint over what is wrong on the source. With Alt the paint is taken away." }[tool];
     this.list();
     this.page.mark(null);
