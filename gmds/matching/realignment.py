@@ -2,8 +2,8 @@
 
 No proposal may have a region right that the rest of the likeliest has. Around points spread over the source a region
 is laid, by similarities from all sides, on the part of the target that the map sends it to. Where one of them lies
-closer there, and elsewhere, than what the map itself makes of the region, the region is sent where it says, and all of
-the source registered anew.
+closer than what the map itself makes of the region, and elsewhere, the region is sent where it says, and all of the
+source registered anew. Similarities are improved by closest points (Besl and McKay 1992).
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
-from geodesics import GeodesicDistance, SurfacePoints, embedded
+from geodesics import GeodesicDistance, SurfacePoints, embedded, farthest_point_sampling
 from geodesics.arrays import Bools, Floats, Integers
 from gmds._kernels.alignments import alignment_costs, refined_alignments
 from gmds._kernels.rotations import nearest_rotations
@@ -35,17 +35,18 @@ SIZES = (0.6, 1.6)  # of a region on the target: a bound
 REACH = 0.3
 CLOSEST_REACH = 0.45
 # Of the cost of where the map itself lays a region, that of another place, at the most; root areas, root mean square,
-# between two places: from 0.05 maps of people that were right became worse as often as better (notes.md, as below).
+# between two places: from 0.05 maps of people that were right became worse as often as better
+# (benchmarks/results/notes.md, "Recombination", for these two and the reaches).
 LEAST_COST = 0.95
 APART = 0.1
 PLACES = 2  # of a region; set by hand
 MOST = 16  # regions that are registered; set by hand
 ALL_SIDES = Rotation.create_group("I").as_matrix()  # 60 rotations: none is farther than 45 degrees from one of them
 FIRST_STEPS = 3  # of closest points for all of them, the others for the best; set by hand
-MOST_REFINED = 12
+MOST_REFINED = 12  # of them; set by hand
 
 
-class Laid(NamedTuple):
+class Placement(NamedTuple):
     """Vertices (k,) of the source, where they go (k, 3), and the cost as a share of that of the map itself."""
 
     vertices: Integers
@@ -62,13 +63,13 @@ def realigned(source: DeformableMesh, target: DeformableMesh, y: Floats) -> list
     return places
 
 
-def laid_anew(source: DeformableMesh, target: DeformableMesh, y: Floats) -> list[Laid]:
+def laid_anew(source: DeformableMesh, target: DeformableMesh, y: Floats) -> list[Placement]:
     """Regions with places that fit better than where the map to y (n, 3) sends them, the best first."""
-    centres, around = _spread(source)
+    distance = GeodesicDistance(embedded(source.mesh))
+    centres = farthest_point_sampling(distance, min(CENTRES, len(source.usable)), int(source.usable[0]))
     images = target.usable[cKDTree(target.mesh.vertices[target.usable]).query(y[centres])[1]]
-    there = _distances(target, images)
-    found: list[Laid] = []
-    for here, beyond in zip(around, there, strict=True):
+    found: list[Placement] = []
+    for here, beyond in zip(_distances(source, centres), _distances(target, images), strict=True):
         for share in SHARES:
             one = Patch(source, _nearest(source, here, share))
             other = Patch(target, _nearest(target, beyond, ROOM * share))
@@ -118,7 +119,7 @@ class Patch:
         return outside
 
 
-def _better(one: Patch, other: Patch, y: Floats, middle: Floats) -> Iterator[Laid]:
+def _better(one: Patch, other: Patch, y: Floats, middle: Floats) -> Iterator[Placement]:
     """Places of a region on another that cost less than that of the map, which sends its vertices to y (k, 3)."""
     own = _fitted(one, y)
     turned = np.einsum("ab,kbc->kac", own.rotations[0], ALL_SIDES)
@@ -136,7 +137,7 @@ def _better(one: Patch, other: Patch, y: Floats, middle: Floats) -> Iterator[Lai
             return
         if all(_apart(one, places[row], before) > APART for before in [y, *kept]):
             kept.append(places[row])
-            yield Laid(one.vertices, places[row], float(costs[row] / costs[0]))
+            yield Placement(one.vertices, places[row], float(costs[row] / costs[0]))
 
 
 def _refined(tried: Similarities, ours: tuple[Any, ...], theirs: tuple[Any, ...], size: float, steps: int) -> Floats:
@@ -160,21 +161,9 @@ def _apart(one: Patch, places: Floats, others: Floats) -> float:
     return float(np.sqrt(one.areas @ ((places - others) ** 2).sum(axis=1)))
 
 
-def _spread(mesh: DeformableMesh) -> tuple[Integers, Floats]:
-    """Vertices (k,) spread over a surface, and the distances (k, n) of all vertices from each."""
-    chosen, fields = [int(mesh.usable[0])], []
-    while True:
-        fields.append(_distances(mesh, np.array(chosen[-1:]))[0])
-        if len(chosen) == min(CENTRES, len(mesh.usable)):
-            return np.array(chosen), np.stack(fields)
-        nearest = np.min(fields, axis=0)
-        chosen.append(int(mesh.usable[nearest[mesh.usable].argmax()]))
-
-
 def _distances(mesh: DeformableMesh, vertices: Integers) -> Floats:
     """Geodesic distances (k, n) from vertices (k,)."""
-    fields = GeodesicDistance(embedded(mesh.mesh)).field(SurfacePoints.at_vertices(mesh.mesh, vertices))
-    return np.where(np.isfinite(fields), fields, np.finfo(float).max)
+    return GeodesicDistance(embedded(mesh.mesh)).field(SurfacePoints.at_vertices(mesh.mesh, vertices))
 
 
 def _nearest(mesh: DeformableMesh, distances: Floats, share: float) -> Integers:
