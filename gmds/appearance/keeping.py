@@ -21,7 +21,13 @@ OBJ_WORDS = {"usemtl": "materials", "o": "names of objects", "g": "groups", "s":
 
 
 def not_kept(
-    path: Path, *, materials: bool = False, names: bool = False, rig: bool = False, polygons: bool = False
+    path: Path,
+    *,
+    materials: bool = False,
+    names: bool = False,
+    rig: bool = False,
+    polygons: bool = False,
+    texture: bool = False,
 ) -> list[str]:
     """What of a file, of these kinds, is lost when its surface is written anew.
 
@@ -35,6 +41,8 @@ def not_kept(
         Whether names of objects, groups, parts and materials are carried.
     polygons : bool
         Whether polygons are kept, or are of no concern.
+    texture : bool
+        Whether texture coordinates and one image are carried: of a file with one material at most all it looks like.
 
     Returns
     -------
@@ -45,7 +53,10 @@ def not_kept(
     kind = sniff(data, path) if data else ""
     if kind in ("glb", "gltf"):
         return _of_scene(open_gltf(data, path), materials or names, rig)
-    found = {row.words[0] for row in statements(data, path)} if kind == "obj" else set()
+    rows = [row.words for row in statements(data, path)] if kind == "obj" else []
+    found = {words[0] for words in rows}
+    if texture and len({tuple(words) for words in rows if words[0] == "usemtl"}) == 1:
+        found.discard("usemtl")
     kinds = [told for word, told in OBJ_WORDS.items() if word in found and not (names and word in NONE)]
     contents = contents_of(path) if data and not polygons else None
     larger = contents is not None and contents.polygons is not None and bool((contents.polygons[0] > 3).any())

@@ -24,14 +24,13 @@ def is_scene(file: Path) -> bool:
     return sniff(read_bytes(file), file) in ("glb", "gltf")
 
 
-def tell_what_is_lost(
-    file: Path, *, materials: bool = False, names: bool = False, rig: bool = False, polygons: bool = True
-) -> None:
-    """What of a file is not carried, if `materials`, or `materials` and `rig`, or `names`, or `polygons` are."""
+def tell_what_is_lost(file: Path, *, polygons: bool = True, **carried: bool) -> None:
+    """What of a file is not carried, where these of `not_kept` are."""
     from gmds.appearance.keeping import lost_note, not_kept
 
-    if lost := not_kept(file, materials=materials, names=names, rig=rig, polygons=polygons):
-        hint = "; --rig carries bones and shapes" if materials and not rig and "bones and their weights" in lost else ""
+    if lost := not_kept(file, polygons=polygons, **carried):
+        rigged = carried.get("materials") and not carried.get("rig") and "bones and their weights" in lost
+        hint = "; --rig carries bones and shapes" if rigged else ""
         note(str(lost_note(file, lost, hint)))
 
 

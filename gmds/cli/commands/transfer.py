@@ -122,7 +122,8 @@ def command(map_file: Path, source: Path, target: Path, output: Path, as_json: b
     if is_mesh:
         tell_what_is_lost(source, materials=own is not None, polygons=output.suffix.lower() != ".glb")
         named = output.suffix.lower() == ".obj" and options["values"] is None
-        tell_what_is_lost(look, materials=kept, names=named, rig=kept and options["rig"])
+        textured = result.get("carried") == "texture"
+        tell_what_is_lost(look, materials=kept, names=named, rig=kept and options["rig"], texture=textured)
         tell_what_is_rounded(answer, output, centered=not kept)
     emit({**result, **valid_count(answer, as_json)}, as_json)
 

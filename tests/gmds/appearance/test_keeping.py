@@ -34,6 +34,13 @@ def test_what_is_lost(tmp_path: Path, content: bytes, lost: list[str]) -> None:
     assert kind_of(content) != "scene" or not_kept(tmp_path / "a", materials=True, rig=True) == animated
 
 
+def test_a_texture_is_all_that_one_material_is(tmp_path: Path) -> None:
+    (tmp_path / "one.obj").write_text("usemtl skin\n" + OBJ)
+    (tmp_path / "two.obj").write_text("usemtl skin\n" + OBJ + "usemtl eyes\nf 1 2 3\n")
+    assert not_kept(tmp_path / "one.obj", texture=True) == []
+    assert not_kept(tmp_path / "two.obj", texture=True) == ["materials"]
+
+
 def kind_of(content: bytes) -> str:
     return "scene" if content[:4] == b"glTF" or content[:1] == b"{" else "other"
 
