@@ -17,6 +17,7 @@ from scipy import stats
 from geodesics.arrays import Floats
 from geodesics.errors import BadArgument, BadShape
 from gmds.morphometrics.components import ALIKE
+from gmds.morphometrics.sample_sizes import dealt, probability
 
 PERMUTATIONS = 999  # so that the least probability is 0.001: a convention
 
@@ -69,7 +70,7 @@ def shape_test(shapes: ArrayLike, columns: Floats, *, permutations: int = PERMUT
     columns : float64 array of shape (k, c)
         As `design` makes them.
     permutations : int
-        How often rows are drawn anew.
+        How often rows are drawn anew; where there are 720 ways to deal them out, or fewer, each is taken once.
     rng : int
         Seeds them.
 
@@ -90,15 +91,12 @@ def shape_test(shapes: ArrayLike, columns: Floats, *, permutations: int = PERMUT
     gram = centred @ centred.T
     total = float(np.trace(gram))
     explained = float(np.trace(q.T @ gram @ q))
-    random = np.random.default_rng(rng)
-    beaten = 1
-    for _ in range(permutations):
-        drawn = q[random.permutation(k)]
-        beaten += float(np.trace(drawn.T @ gram @ drawn)) >= explained * (1 - 1e-12)
+    orders, is_all = dealt(columns, permutations, rng)
+    others = [float(np.trace(q[order].T @ gram @ q[order])) for order in orders]
     share = explained / total if total > 0 else 0.0
     freedom = q.shape[1]
     f = (explained / max(freedom, 1)) / max((total - explained) / (k - freedom - 1), 1e-300)
-    return ShapeTest(share, f, beaten / (permutations + 1), permutations)
+    return ShapeTest(share, f, probability(explained, others, is_all, 1e-12), len(orders))
 
 
 def centred_and_basis(shapes: ArrayLike, columns: Floats) -> tuple[Floats, Floats]:
@@ -114,7 +112,7 @@ def centred_and_basis(shapes: ArrayLike, columns: Floats) -> tuple[Floats, Float
         raise BadArgument("a test takes finite numbers, one or more for each shape")
     k, c = columns.shape
     if k < c + 2:
-        raise BadArgument(f"{k} shapes are too few for a test with {c + 1} parameters")
+        raise BadArgument(f"{k} shapes are too few for a test with {c + 1} parameters, which takes {c + 2} or more")
     centred = y - y.mean(axis=0)
     if not float((centred**2).sum()) > ALIKE * float((y**2).sum()):
         raise BadArgument("the shapes are all the same, so there is nothing to test")

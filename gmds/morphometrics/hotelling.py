@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from geodesics.arrays import Floats
 from gmds.morphometrics.components import principal_components
 from gmds.morphometrics.group_tests import PERMUTATIONS, centred_and_basis
+from gmds.morphometrics.sample_sizes import dealt, probability
 
 ENOUGH = 0.95  # share of the variation that the components have together: a convention
 
@@ -49,7 +50,7 @@ def hotelling_test(
     columns : float64 array of shape (k, c)
         As `design` makes them.
     permutations : int
-        How often rows are drawn anew.
+        How often rows are drawn anew, as of `shape_test`.
     rng : int
         Seeds them.
 
@@ -80,9 +81,9 @@ def hotelling_test(
     scores = centred @ axes[:count].T
     white = np.linalg.svd(scores, full_matrices=False)[0]  # the trace does not depend on the units of components
     found = _trace(white, q)
-    random = np.random.default_rng(rng)
-    beaten = 1 + sum(_trace(white, q[random.permutation(k)]) >= found * (1 - 1e-9) for _ in range(permutations))
-    return HotellingTest((k - c - 1) * found, count, beaten / (permutations + 1), permutations)
+    orders, is_all = dealt(columns, permutations, rng)
+    p = probability(found, [_trace(white, q[order]) for order in orders], is_all, 1e-9)
+    return HotellingTest((k - c - 1) * found, count, p, len(orders))
 
 
 def _trace(white: Floats, q: Floats) -> float:

@@ -77,7 +77,7 @@ def command(folder: Path, output: Path, as_json: bool, **options: Any) -> None:
     from gmds.atlases.build import atlas
     from gmds.atlases.output import write_atlas
     from gmds.batch import local_client, quiet, remote_client
-    from gmds.specimens.units import in_other_units
+    from gmds.cli.specimen_notes import tell_of_copies, tell_of_units
 
     refuse_same_folder(folder, output, "the meshes")
     tell_inner_folders(folder, output)
@@ -92,8 +92,8 @@ def command(folder: Path, output: Path, as_json: bool, **options: Any) -> None:
     write_atlas(made, output)
     for name, why in made.failures.items():
         note(f"gmds: left out {name}: {why.code}: {why.reason}")
-    for name, times in in_other_units(made.names, made.superposition.sizes).items():
-        note(f"gmds: {name} is {times:.3g} times as large as the median: in other units? Shape and growth do not mind")
+    tell_of_units(made, "Shape and growth do not mind")
+    tell_of_copies(made)
     emit(_told(made, output), as_json)
     if made.failures:
         raise click.exceptions.Exit(UNFINISHED)

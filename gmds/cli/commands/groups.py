@@ -9,7 +9,7 @@ from typing import Any
 import click
 
 from gmds.cli.group import Command
-from gmds.cli.output import emit, json_option, seed_option
+from gmds.cli.output import emit, json_option, note, seed_option
 from gmds.cli.paths import OutputFolder, refuse_same_folder
 
 PATH = click.Path(path_type=Path)
@@ -48,8 +48,10 @@ def command(
 
     from gmds.atlases.groups_output import write_growth, write_tests
     from gmds.atlases.registered import Atlas
+    from gmds.cli.specimen_notes import tell_of_copies, tell_of_units
     from gmds.morphometrics.group_tests import design, point_tests, shape_test
     from gmds.morphometrics.hotelling import hotelling_test
+    from gmds.morphometrics.sample_sizes import told_of_sizes
     from gmds.morphometrics.specimen_tables import read_column
 
     refuse_same_folder(atlas_file.parent, output, "the atlas")
@@ -58,7 +60,13 @@ def command(
     atlas = Atlas.load(atlas_file)
     laid = atlas.superposition
     values: Any = np.log(laid.sizes) if table is None else read_column(table, column, atlas.names)
-    columns, growth = design(values), atlas.growth
+    columns, sizes = design(values), told_of_sizes(values, atlas.names)
+    tell_of_copies(atlas)
+    if table is None:
+        tell_of_units(atlas, "Then its size says nothing beside that of others")
+    for sentence in sizes:
+        note(f"gmds: {sentence}")
+    growth = atlas.growth
     whole = np.isfinite(growth).all(axis=0)
     wanted = {"permutations": permutations, "rng": seed}
     told = {"shape": laid.aligned, "growth": growth[:, whole]}

@@ -46,10 +46,15 @@ def command(atlas_file: Path, output: Path, components: int | None, keep_size: b
     """
     from gmds.atlases.model_output import write_model
     from gmds.atlases.registered import Atlas
+    from gmds.cli.specimen_notes import tell_of_copies, tell_of_units
     from gmds.morphometrics.shape_model import ShapeModel
 
     refuse_same_folder(atlas_file.parent, output, "the atlas")
-    model = ShapeModel.from_atlas(Atlas.load(atlas_file), components, scale=not keep_size)
+    atlas = Atlas.load(atlas_file)
+    model = ShapeModel.from_atlas(atlas, components, scale=not keep_size)
+    tell_of_copies(atlas)
+    if keep_size:
+        tell_of_units(atlas, "Then the first component is that")
     write_model(model, output, shown)
     emit(_told(model, output), as_json)
 

@@ -46,6 +46,7 @@ def twins(client: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
         write_mesh(quadruped(n_vertices=N), place / "meshes" / f"{name}.ply")
     done = run(client, "atlas", place / "meshes", "-o", place / "atlas", "--json")
     assert done.exit_code == 0, done.output
+    assert "one and other are the same shape" in done.stderr
     return place
 
 
@@ -95,6 +96,12 @@ def test_specimens_in_other_units_and_places_are_the_shapes_they_are(client: Any
     assert np.isfinite(made.growth).all() and np.abs(np.median(made.growth, axis=1)).max() < 0.1
     model = run(client, "model", tmp_path / "atlas" / "atlas.npz", "-o", tmp_path / "model", "--json")
     assert model.exit_code == 0 and json.loads(model.stdout)["components"] == 1
+    large = run(client, "model", tmp_path / "atlas" / "atlas.npz", "--keep-size", "-o", tmp_path / "large")
+    assert "in other units? Then the first component is that" in large.stderr
+    (tmp_path / "t.csv").write_text("name,kind\nmetres,a\nmillimetres,b\n")
+    known = ("--table", tmp_path / "t.csv", "--column", "kind", "-o", tmp_path / "groups")
+    alone = run(client, "groups", tmp_path / "atlas" / "atlas.npz", *known)
+    assert alone.exit_code == 1 and "too few for a test: each of the 2 groups has one (a, b)" in alone.stderr
     few = run(client, "groups", tmp_path / "atlas" / "atlas.npz", "--column", "size", "-o", tmp_path / "groups")
     assert few.exit_code == 1 and "2 shapes are too few" in few.stderr
 

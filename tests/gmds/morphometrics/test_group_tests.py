@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from gmds.errors import BadGroups
 from gmds.landmarks.files import read_specimens
 from gmds.morphometrics.group_tests import design, discoveries, point_tests, shape_test
 from gmds.morphometrics.hotelling import hotelling_test
+from gmds.morphometrics.sample_sizes import least_probability, told_of_sizes
 from gmds.morphometrics.specimen_tables import read_column, write_points
 
 RNG = np.random.default_rng(5)
@@ -99,3 +101,28 @@ def test_points_are_read_back_as_they_were_written(name: str, tmp_path: Path) ->
     assert list(read) == ["one", "two"]
     assert np.array_equal(read["one"].positions, places[0])
     assert np.array_equal(read["two"].defined, valid[1])
+
+
+def test_of_few_specimens_all_ways_are_taken_and_said_to_be_few() -> None:
+    rng = np.random.default_rng(3)
+    scores, labels = rng.normal(size=(7, 3)), ["a"] * 3 + ["b"] * 4
+    scores[3:, 0] += 50
+    for test in (shape_test, hotelling_test):
+        found = test(scores, design(labels), permutations=5)
+        assert found.permutations == 35 and np.isclose(found.p, 1 / 35)
+        assert found.p == test(scores, design(labels), permutations=5, rng=9).p
+    assert least_probability(labels) == 1 / 35 and told_of_sizes(labels, "1234567") == []
+    y = rng.normal(size=(4, 1))
+    every = [shape_test(y, design(np.array(x, float))).f for x in itertools.permutations([1, 2, 3, 7])]
+    assert np.isclose(shape_test(y, design([1.0, 2, 3, 7])).p, np.mean(np.array(every) >= every[0] * (1 - 1e-9)))
+
+
+def test_groups_of_one_are_named() -> None:
+    alone, least = told_of_sizes(["cat", "cat", "dog"], ["x", "y", "z"])
+    assert "group dog has one specimen, z:" in alone and "(cat 2, dog 1) p is 0.33 at the least" in least
+    with pytest.raises(BadArgument, match=r"too few for a test: each of the 2 groups has one \(cat, dog\)"):
+        told_of_sizes(["cat", "dog"], ["x", "y"])
+    assert told_of_sizes(["cat", "cat"], ["x", "y"]) == [
+        "of 2 specimens (cat 2) p is 1 at the least, whatever the difference"
+    ]
+    assert "of 3 specimens p is 0.17" in told_of_sizes([1.0, 2.0, 3.0], "xyz")[0]
