@@ -31,6 +31,7 @@ from benchmarks.places import RESULTS
 from benchmarks.study.atlas_sets import SETS, Pair, Set
 from geodesics import Mesh, SurfacePoints
 from geodesics.arrays import Floats
+from gmds.atlases.sheets import located
 from gmds.batch import local_client
 from gmds.evaluation import geodesic_error
 from gmds.files.table import write_table
@@ -55,9 +56,12 @@ def direct(pair: Pair, known: Set, maps: Path) -> SurfacePoints:
 
 
 def through(made: gmds.Atlas, pair: Pair, meshes: dict[str, Mesh]) -> SurfacePoints:
-    """Where an atlas sends them."""
-    places = made.carry(meshes[pair.source].vertices[pair.here], pair.source, pair.target)
-    return SurfacePoints.closest(meshes[pair.target], places)
+    """Where an atlas sends them: on the surface of the other specimen, where it faces as the registered one does."""
+    target, registered = meshes[pair.target], made.registered
+    common, there = registered[made.index(pair.source)], registered[made.index(pair.target)]
+    here = SurfacePoints.at_vertices(meshes[pair.source], pair.here)
+    points = SurfacePoints(there, *located(here, common.vertices, common.faces))
+    return SurfacePoints(target, *located(points, target.vertices, target.faces))
 
 
 def cycle(made: gmds.Atlas) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 from geodesics import Mesh, SurfacePoints
 from geodesics.arrays import Bools, Floats, Integers
 from geodesics.closest import closest_on_triangles
+from gmds.atlases.sheets import closest_facing
 from gmds.correspondence import Correspondence
 
 STEPS = 20  # of the geometric median, a bound
@@ -48,12 +49,12 @@ class Fused(NamedTuple):
         return cls(mesh.vertices, there, np.full(mesh.n_vertices, np.nan), np.full(mesh.n_vertices, SURE))
 
 
-def fused(said: Sequence[Said], target: Mesh) -> Fused:
+def fused(said: Sequence[Said], target: Mesh, normals: Floats | None = None) -> Fused:
     """The geometric median of what several accounts say, weighted by trust.
 
-    It heeds the majority and not how far off the others are (Weiszfeld 1937), and is brought onto the specimen. Valid
-    is what most accounts say is there. `spread` is the mean distance from it over the root of the area; NaN for one
-    account. Trust is that of the account trusted most.
+    It heeds the majority and not how far off the others are (Weiszfeld 1937), and is brought onto the specimen, where
+    that faces as `normals` (n, 3) do, if they are given. Valid is what most accounts say is there. `spread` is the mean
+    distance from it over the root of the area; NaN for one account. Trust is that of the account trusted most.
     """
     if len(said) == 1:
         return Fused(said[0].places, said[0].valid, np.full(len(said[0].valid), np.nan), said[0].trust)
@@ -66,7 +67,7 @@ def fused(said: Sequence[Said], target: Mesh) -> Fused:
     for _ in range(STEPS):
         pull = weight / np.maximum(np.linalg.norm(places - middle, axis=2), NEAR * size)
         middle = (pull[..., None] * places).sum(axis=0) / pull.sum(axis=0)[:, None]
-    on = SurfacePoints.closest(target, middle).positions
+    on = SurfacePoints(target, *closest_facing(middle, normals, target.vertices, target.faces)).positions
     spread = (weight * np.linalg.norm(places - on, axis=2)).sum(axis=0) / weight.sum(axis=0) / size
     return Fused(on, there.sum(axis=0) * 2 > len(said), spread, (weight * there).max(axis=0))
 

@@ -13,11 +13,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from geodesics import Mesh
+from geodesics import Mesh, vertex_normals
 from geodesics.arrays import Bools, Floats, Integers
 from geodesics.barycentric import combination
-from geodesics.closest import closest_on_triangles
 from gmds.atlases.fusion import Fused, Said, fused
+from gmds.atlases.sheets import closest_facing
 from gmds.correspondence import Correspondence
 
 # The first brings nearly all there is (`benchmarks/results/notes.md`, "Atlas").
@@ -44,19 +44,19 @@ class Link:
         said = Said.by(answer)
         return cls(answer.source.vertices, said.places, answer.source.faces, said.valid, said.trust)
 
-    def onward(self, places: Floats) -> Said:
-        """Where places (q, 3) on the one specimen are on the other."""
-        return self._carried(places, self.here, self.there)
+    def onward(self, places: Floats, normals: Floats | None = None) -> Said:
+        """Where places (q, 3) on the one specimen are on the other; normals (q, 3) tell parts that touch apart."""
+        return self._carried(places, normals, self.here, self.there)
 
-    def back(self, places: Floats) -> Said:
+    def back(self, places: Floats, normals: Floats | None = None) -> Said:
         """Where places (q, 3) on the other are on the one."""
-        return self._carried(places, self.there, self.here)
+        return self._carried(places, normals, self.there, self.here)
 
-    def _carried(self, places: Floats, start: Floats, end: Floats) -> Said:
+    def _carried(self, places: Floats, normals: Floats | None, start: Floats, end: Floats) -> Said:
         known = self.faces[self.valid[self.faces].all(axis=1)]
         if not len(known):
             return Said(places, np.zeros(len(places), dtype=bool), np.ones(len(places)))
-        face, weights, _ = closest_on_triangles(places, start, known)
+        face, weights = closest_facing(places, normals, start, known)
         corners = known[face]
         trust = (weights * self.trust[corners]).sum(axis=1)
         return Said(combination(weights, end[corners]), np.ones(len(places), dtype=bool), trust)
@@ -92,25 +92,29 @@ def agreed(
             if name in heard and all(one in rows for one in pair):
                 heard[name].append(pair)
     found = {**rows, first: rows[first]._replace(spread=np.zeros(len(rows[first].places)))}
+    faces = mesh(first).faces
     for _ in range(ROUNDS):
         before = dict(found)
+        normals = {name: vertex_normals(Mesh(one.places, faces)) for name, one in before.items()}
         for name, pairs in heard.items():
-            said = [_account(name, pair, before, links[pair]) for pair in _some(pairs)]
+            said = [_account(name, pair, before, normals, links[pair]) for pair in _some(pairs)]
             known = [one for one in said if one is not None]
             if known:
-                found[name] = fused(known, mesh(name))._replace(valid=rows[name].valid)
+                found[name] = fused(known, mesh(name), normals[name])._replace(valid=rows[name].valid)
     return found
 
 
-def _account(name: str, pair: tuple[str, str], rows: Mapping[str, Fused], load: Load) -> Said | None:
+def _account(
+    name: str, pair: tuple[str, str], rows: Mapping[str, Fused], normals: Mapping[str, Floats], load: Load
+) -> Said | None:
     """What one link says of where the points are on a specimen, from where they are on the other."""
     link = load()
     if link is None:
         return None
-    source, target = pair
-    other = rows[source if name == target else target]
-    said = link.onward(other.places) if name == target else link.back(other.places)
-    return said._replace(valid=said.valid & other.valid)
+    other = pair[0] if name == pair[1] else pair[1]
+    carry = link.onward if name == pair[1] else link.back
+    said = carry(rows[other].places, normals[other])
+    return said._replace(valid=said.valid & rows[other].valid)
 
 
 def _some(pairs: list[tuple[str, str]]) -> list[tuple[str, str]]:

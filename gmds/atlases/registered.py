@@ -13,8 +13,10 @@ from numpy.typing import ArrayLike
 
 from geodesics import Mesh, SurfacePoints
 from geodesics.arrays import Bools, Floats, Integers
+from geodesics.barycentric import combination
 from geodesics.errors import BadArgument
 from geodesics.io import atomic_write
+from gmds.atlases.sheets import located
 from gmds.batch.records import Failure
 from gmds.correspondence import Correspondence
 from gmds.errors import AtlasFileError
@@ -138,11 +140,14 @@ class Atlas:
         points = SurfacePoints.at_vertices(there, np.arange(there.n_vertices))
         return Correspondence.from_points(here, points, valid=self.valid[i] & self.valid[j])
 
-    def carry(self, positions: ArrayLike, source: str, target: str) -> Floats:
-        """Where positions (p, 3) on one specimen are on another (p, 3), through the common triangulation."""
+    def carry(self, positions: ArrayLike | SurfacePoints, source: str, target: str) -> Floats:
+        """Where positions (p, 3) on one specimen are on another (p, 3), through the common triangulation.
+
+        Of points on the mesh of the specimen itself normals count as well: a hand on a thigh is not taken for it.
+        """
         i, j = self.index(source), self.index(target)
-        points = SurfacePoints.closest(Mesh(self.positions[i], self.faces), positions)
-        return SurfacePoints(Mesh(self.positions[j], self.faces), points.face, points.barycentric).positions
+        face, weights = located(positions, self.positions[i], self.faces)
+        return combination(weights, self.positions[j][self.faces[face]])
 
     def at(self, points: SurfacePoints) -> tuple[Floats, Bools]:
         """Where points (p,) of the common triangulation are on each specimen (k, p, 3), and whether they are (k, p)."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
-from geodesics import Mesh
+from geodesics import Mesh, vertex_normals
 from gmds.atlases.fusion import Fused, Said, fused
 from gmds.atlases.links import Link, Load
 from gmds.atlases.registered import MIRROR
@@ -33,7 +33,8 @@ class TemplateMaps:
         for one in others:
             if one != name and (first, one) in self.done and (one, name) in self.done:
                 said.append(self._map(first, one).compose(self._map(one, name)))
-        return fused([Said.by(one) for one in said], self._mesh(name))
+        normals = vertex_normals(Mesh(said[0].points.positions, said[0].source.faces))
+        return fused([Said.by(one) for one in said], self._mesh(name), normals)
 
     def links(self, turned: frozenset[str]) -> dict[tuple[str, str], Load]:
         """What loads the link that each map makes, once the turned specimens are mirrored."""
