@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -15,8 +15,8 @@ from geodesics import Mesh, SurfacePoints, read_mesh
 from geodesics.arrays import Floats, Integers
 from gmds.shapes import Figure, quadruped, truth
 
-# other shapes than those on which the vote was tried (000, 011, 022, 033, 044, 005)
 PEOPLE = ("006", "001", "012", "023", "034", "045")
+TRIED = ("000", "011", "022", "033", "044", "005")  # people on whom the vote and the error bar were tried
 JUDGED = 50  # points of a pair
 
 
@@ -41,15 +41,15 @@ class Set(NamedTuple):
     options: tuple[dict[str, Any], dict[str, Any]] = ({}, {})
 
 
-def faust() -> Set:
+def faust(people: Sequence[str] = PEOPLE) -> Set:
     """Six people in six poses."""
     folder = Path(os.environ["GMDS_DATA"]) / "faust_5k"
-    meshes = {name: read_mesh(folder / f"tr_reg_{name}.off") for name in PEOPLE}
-    points = {name: np.loadtxt(folder / f"corres/tr_reg_{name}.vts", dtype=np.int64) - 1 for name in PEOPLE}
-    some = np.random.default_rng(0).choice(len(points[PEOPLE[0]]), JUDGED, replace=False)
-    couples = [(PEOPLE[i], PEOPLE[(i + step) % 6]) for step, count in ((1, 5), (2, 3)) for i in range(count)]
+    meshes = {name: read_mesh(folder / f"tr_reg_{name}.off") for name in people}
+    points = {name: np.loadtxt(folder / f"corres/tr_reg_{name}.vts", dtype=np.int64) - 1 for name in people}
+    some = np.random.default_rng(0).choice(len(points[people[0]]), JUDGED, replace=False)
+    couples = [(people[i], people[(i + step) % 6]) for step, count in ((1, 5), (2, 3)) for i in range(count)]
     pairs = [Pair(a, b, points[a][some], points[b][some]) for a, b in couples]
-    return Set(meshes, pairs, {name: meshes[name].vertices[points[name]] for name in PEOPLE})
+    return Set(meshes, pairs, {name: meshes[name].vertices[points[name]] for name in people})
 
 
 def animals() -> Set:
@@ -117,6 +117,7 @@ def horses() -> Set:
     return Set(meshes, pairs, {})
 
 
+DEVELOPMENT = ("FAUST, development", "animals, built-in", "faces, meshmonk")
 SETS: dict[str, Callable[[], Set]] = {
     "FAUST": faust,
     "horses, scaled": horses,
@@ -125,4 +126,5 @@ SETS: dict[str, Callable[[], Set]] = {
     "endocasts": lambda: anatomy("primate"),
     "teeth": lambda: anatomy("pnas", 3),
     "faces, meshmonk": lambda: anatomy("meshmonk"),
+    "FAUST, development": lambda: faust(TRIED),
 }

@@ -96,9 +96,9 @@ def atlas(
     if templates < 1 or rounds < 1 or neighbours < 0:
         raise BadArgument("there must be one template and one round at least, and no fewer than 0 neighbours")
     with contextlib.ExitStack() as stack:
+        known = _collection(shapes)
         folder = Path(output or stack.enter_context(tempfile.TemporaryDirectory(prefix="gmds-"))).absolute()
         folder.mkdir(parents=True, exist_ok=True)
-        known = _collection(shapes)
         if isinstance(mirror, str) and mirror == "auto":
             matching, mirror = {"orientation": "any", **matching}, ("auto",)
         names = [mirror] if isinstance(mirror, str) else list(mirror)
@@ -118,5 +118,6 @@ def _collection(shapes: Given) -> dict[str, Shape]:
         return dict(Collection.of(shapes).shapes)
     except BadArgument as error:
         if "nothing to match" in str(error):
-            raise NoAtlas("an atlas takes two meshes or more, and there is one") from error
+            alone = str(error).partition("no pair")[2]
+            raise NoAtlas(f"an atlas takes two meshes or more, and there is one{alone}") from error
         raise

@@ -16,6 +16,7 @@ from geodesics.arrays import Bools, Floats, Integers
 from geodesics.barycentric import combination
 from geodesics.errors import BadArgument
 from geodesics.io import atomic_write
+from gmds.atlases.error_bars import error_bars
 from gmds.atlases.sheets import located
 from gmds.batch.records import Failure
 from gmds.correspondence import Correspondence
@@ -46,8 +47,8 @@ class Atlas:
     mirrored : bool array of shape (k,)
         Specimens of the other side, which are mirrored before shapes are compared.
     spread : float64 array of shape (k, n)
-        How far what several templates say is from their median, over the root of the area of the specimen: an error
-        bar; NaN with one template.
+        How far what all maps say of a point is from their median, over the root of the area of the specimen; NaN where
+        one map alone says it. See `error_bar`.
     gap : float64 array of shape (k,)
         How far the vertices of a specimen are from its registered surface in the mean, over the root of its area.
     status : tuple of str
@@ -112,6 +113,11 @@ class Atlas:
         """The mean shape, nobody's specimen, of the mean centroid size."""
         laid = self.superposition
         return Mesh(laid.mean * laid.sizes.mean(), self.faces)
+
+    @property
+    def error_bar(self) -> Floats:
+        """Over the root of its area, how far off (k, n) nine of ten points are at the most, told from their spread."""
+        return error_bars(self.spread)
 
     @property
     def growth(self) -> Floats:

@@ -70,7 +70,8 @@ class Collection:
         if unknown:
             raise BadArgument(f"there is no shape {min(unknown)!r}; there are {', '.join(list(named)[:10])}")
         if not found:
-            raise BadArgument(f"there is nothing to match: {len(named)} shapes, no pair")
+            alone = f": {next(iter(named))}" if len(named) == 1 else ""
+            raise BadArgument(f"there is nothing to match: {len(named)} shapes, no pair{alone}")
         wanted = {name for pair in found for name in pair}
         shapes = {name: Shape(name, _absolute(origin)) for name, origin in named.items() if name in wanted}
         return cls(shapes, tuple(found))

@@ -77,7 +77,7 @@ def command(folder: Path, output: Path, as_json: bool, **options: Any) -> None:
     from gmds.atlases.build import atlas
     from gmds.atlases.output import write_atlas
     from gmds.batch import local_client, quiet, remote_client
-    from gmds.cli.specimen_notes import tell_of_copies, tell_of_units
+    from gmds.cli.specimen_notes import tell_of_copies, tell_of_doubt, tell_of_units
 
     refuse_same_folder(folder, output, "the meshes")
     tell_inner_folders(folder, output)
@@ -94,6 +94,7 @@ def command(folder: Path, output: Path, as_json: bool, **options: Any) -> None:
         note(f"gmds: left out {name}: {why.code}: {why.reason}")
     tell_of_units(made, "Shape and growth do not mind")
     tell_of_copies(made)
+    tell_of_doubt(made)
     emit(_told(made, output), as_json)
     if made.failures:
         raise click.exceptions.Exit(UNFINISHED)
