@@ -136,7 +136,13 @@ def page(known: dict[str, dict[str, Any]]) -> str:
         facts, figures = one["facts"], (f"{mean:.2f}" for mean in means)
         lines.append([name, facts["specimens"], len(one["rows"]), *figures, f"{facts['cycle']:.1e}", one["version"]])
     told = "`python -m benchmarks.study.atlas MAPS`; see the script for the protocol."
-    text = ["# Atlas", "", told, "", *table(["set", "specimens", "pairs", *kinds, "cycle", "version"], lines)]
+    about = (
+        "Where maps of the pairs themselves are hardly better than composed ones, as of faces and endocasts, which are "
+        "smooth and in one pose, no atlas is 15 % better than composition: what all maps have in common stays. More "
+        "neighbours, the template registered from each, weights by disagreement, more rounds and a common spectral "
+        'basis were tried on development sets and gained little or nothing (notes.md, "Atlas").'
+    )
+    text = ["# Atlas", "", told, about, "", *table(["set", "specimens", "pairs", *kinds, "cycle", "version"], lines)]
     pairs = [(name, one["facts"]) for name, one in known.items() if "generalisation_true" in one["facts"]]
     head = ["set", "generalisation, true points", "atlas", "specificity, true points", "atlas"]
     keys = ("generalisation_true", "generalisation_atlas", "specificity_true", "specificity_atlas")

@@ -49,7 +49,7 @@ def landmark_collection(folder: Path, template: Path, landmarks: Path, output: P
         "folder": str(output),
         "specimens": len(found.specimens) - 1,
         "landmarks": len(marks),
-        "doubtful": int(sum(one.doubtful.sum() for one in found.specimens[1:])),
+        "doubtful": int(sum((one.doubtful & found.marks.defined).sum() for one in found.specimens[1:])),
         "to_look_at": sorted({name for name, _ in to_look_at}),
         "left_out": sorted(found.failures),
     }

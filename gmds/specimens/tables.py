@@ -27,7 +27,8 @@ def write_tables(folder: Path, found: Landmarked) -> list[tuple[str, str]]:
     landmarks_wide.csv and shapes_wide.csv a row for every specimen; landmarks.tps a block for every specimen.
     """
     places = np.stack([one.configuration for one in found.specimens])
-    laid, why = _laid(places)
+    some = np.isfinite(places).all(axis=2).any(axis=0)
+    laid, why = _laid(places[:, some])
     wide = [f"{name}.{axis}" for name in found.names for axis in "xyz"]
     write_table(
         folder / "landmarks.csv",
@@ -39,8 +40,11 @@ def write_tables(folder: Path, found: Landmarked) -> list[tuple[str, str]]:
     with atomic_write(folder / "landmarks.tps") as stream:
         stream.write(_tps(found, places).encode("utf-8"))
     to_look_at = list(found.failures.items())
+    if not some.all():
+        to_look_at.append(("all", f"on no specimen: {', '.join(found.names[i] for i in np.flatnonzero(~some))}"))
     if laid is not None:
-        aligned = np.where(np.isfinite(places), laid.aligned, np.nan)
+        aligned = np.full(places.shape, np.nan)
+        aligned[:, some] = np.where(np.isfinite(places[:, some]), laid.aligned, np.nan)
         write_table(folder / "shapes.csv", ["specimen", "landmark", "x", "y", "z"], _long(found, aligned))
         head = ["specimen", "centroid_size", "distance_to_mean", *wide]
         sizes = zip(found.specimens, laid.sizes.tolist(), laid.distances.tolist(), aligned, strict=True)

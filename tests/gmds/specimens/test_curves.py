@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from gmds.maps.point_map import MatchStatus
 from gmds.morphometrics.procrustes import superimposed
 from gmds.specimens.carried import Landmarked, Specimen
 from gmds.specimens.curves import curve_triples, with_slid_curves
+from gmds.specimens.tables import write_tables
 
 SPHERE = bumpy_sphere(3)
 POLES = np.vstack([np.eye(3), -np.eye(3)])
@@ -38,6 +40,22 @@ def found() -> Landmarked:
     specimens = tuple(specimen(i) for i in range(4))
     names = tuple(map(str, range(6 + COUNT)))
     return Landmarked(Landmarks(names, specimens[0].positions, lists=LISTS), specimens, {})
+
+
+def test_a_landmark_on_no_specimen_stays_missing_and_the_others_are_superimposed(
+    found: Landmarked, tmp_path: Path
+) -> None:
+    lost = np.arange(6 + COUNT) != 2
+    gone = tuple(
+        replace(one, valid=lost, positions=np.where(lost[:, None], one.positions, np.nan)) for one in found.specimens
+    )
+    told = write_tables(tmp_path, replace(found, specimens=gone))
+    assert ("all", "on no specimen: 2") in told and not any("superposition" in why for _, why in told)
+    rows = (tmp_path / "shapes.csv").read_text().splitlines()
+    assert len(rows) == 1 + 4 * (6 + COUNT) and sum(row.endswith("NA,NA,NA") for row in rows) == 4
+    laid = superimposed(np.stack([one.positions[lost] for one in found.specimens]))
+    wide = (tmp_path / "shapes_wide.csv").read_text().splitlines()[1].split(",")
+    assert np.isclose(float(wide[1]), laid.sizes[0]) and np.isclose(float(wide[2]), laid.distances[0])
 
 
 def apart(found: Landmarked) -> float:
