@@ -103,7 +103,7 @@ def page(read: dict[str, dict[str, Any]]) -> str:
     told = "`python -m benchmarks.study.spread MAPS`; see the script for the protocol. Errors and spreads x100."
     about = (
         "The error bar is 0.02 and three times the spread, which was chosen so that nine of ten points of each "
-        "development set are within it. Fewer than four specimens with one template have no spread. What all "
+        "development set are within it. Fewer than five specimens with one template have no spread. What all "
         "maps have in common is not in it: on smooth shapes without limbs, as endocasts, they slide together."
     )
     return "\n".join(["# Error bars of an atlas", "", told, about, "", *table(head, lines)])

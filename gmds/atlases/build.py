@@ -55,7 +55,7 @@ def atlas(
         From the second on, the mean shape is matched to all specimens; rounds end when it moves no more.
     neighbours : int
         From how many others each specimen is registered: 1 unless given where there is one template, else none. None
-        with a `distance`, or fewer than 4 specimens.
+        with a `distance`, or fewer than 5 specimens.
     mirror : sequence of str, str or "auto"
         Specimens of the other side, which are mirrored; "auto" finds out which.
     progress : callable, optional

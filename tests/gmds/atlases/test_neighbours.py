@@ -21,11 +21,7 @@ def test_each_is_registered_from_others_evenly_and_never_from_the_template_or_it
     assert all(source != target and "c" not in (source, target) for source, target in pairs)
     assert {source for source, _ in pairs} == set("abdefg")
     assert len(neighbours_of(names, 99, "mean-shape")) == 7 * 6
-    assert (
-        neighbours_of(list("abc"), 4, "b") == []
-        and len(neighbours_of(list("abcd"), 1, "b")) == 3
-        and neighbours_of(names, 0, "a") == []
-    )
+    assert neighbours_of(list("abcd"), 4, "b") == [] and neighbours_of(names, 0, "a") == []
     once = neighbours_of(names, 1, "a")
     assert sorted(source for source, _ in once) == sorted(target for _, target in once) == list("bcdefg")
 
