@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 
+import figures_once
 import igl
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 from geodesics import Mesh, intrinsic
 from gmds import shapes
 from gmds.shapes import Figure, Move, humanoid, quadruped, truth
+from gmds.shapes.figure import figure as made_anew
 from gmds.shapes.humanoid import BODY as PERSON
 from gmds.shapes.implicit import blend
 from gmds.shapes.marching_cubes import fine_surface
@@ -22,6 +24,12 @@ FEW = 1200
 EVERY = [(quadruped, ANIMAL, p) for p in shapes.quadruped_poses] + [
     (humanoid, PERSON, p) for p in shapes.humanoid_poses
 ]
+
+
+@pytest.fixture(autouse=True)
+def nothing_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Here every shape is made anew, also one that another test of this run has made."""
+    figures_once.use(made_anew, monkeypatch)
 
 
 def edge_lengths(mesh: Mesh) -> NDArray[np.float64]:
