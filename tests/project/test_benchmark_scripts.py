@@ -234,7 +234,7 @@ def test_random_parts_repeat_and_their_truth_is_exact(
     for name in ("cat0", "cat1", "dog0"):
         (tmp_path / "tosca_5k" / f"{name}.off").touch()
     monkeypatch.setenv("GMDS_DATA", str(tmp_path))
-    monkeypatch.setattr(random_parts, "VERTICES", 800)
+    monkeypatch.setattr(random_parts, "VERTICES", 400)
     some = random_parts.drawn(12, 3)
     assert str(some[:5]) == str(random_parts.drawn(5, 3)) != str(random_parts.drawn(5, 4))
     assert {one.how for one in some} == set(random_parts.HOW) and all(one.part != one.whole for one in some)

@@ -69,6 +69,7 @@ def as_a_reader(files: Path, client: Any, tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.setattr("gmds.batch.local_client", lambda workers: contextlib.nullcontext(client))
     monkeypatch.setattr("gmds.shapes.demo_pair", docs_files.small_pair)
     monkeypatch.setattr("gmds.pictures.writing.offscreen", docs_files.small_pictures)
+    monkeypatch.setattr("gmds.installation.diagnosis._import_error", docs_files.import_error)
     monkeypatch.setattr("gmds.viewer.server.PageServer.serve_forever", interrupted)
     monkeypatch.setattr("click.launch", lambda link: 0)
     return tmp_path

@@ -30,7 +30,7 @@ def cut(mesh: Mesh, vertices: Bools) -> tuple[Mesh, Integers]:
 
 
 @functools.cache
-def half_animal(n: int = 1000) -> Cut:
+def half_animal(n: int = 500) -> Cut:
     """The front of a standing animal, and all of a walking one that is triangulated in another way."""
     body, whole = quadruped(n_vertices=n), quadruped("walk", n_vertices=n, seed=1)
     part, kept = cut(body, body.vertices[:, 0] > -0.1)
@@ -38,7 +38,7 @@ def half_animal(n: int = 1000) -> Cut:
 
 
 @functools.cache
-def animal_on_half(n: int = 1000) -> tuple[Integers, SurfacePoints]:
+def animal_on_half(n: int = 500) -> tuple[Integers, SurfacePoints]:
     """The vertices (q,) of the whole that lie on the part of `half_animal`, and where they are on it."""
     body, (part, whole, kept, _) = quadruped(n_vertices=n), half_animal(n)
     row = np.full(body.n_vertices, -1)
@@ -58,7 +58,7 @@ class TwoCuts(NamedTuple):
 
 
 @functools.cache
-def two_cuts(n: int = 1000) -> TwoCuts:
+def two_cuts(n: int = 500) -> TwoCuts:
     """The front of one and the rear of the other, in another pose: they have the trunk and its legs in common."""
     standing, walking = quadruped(n_vertices=n), quadruped("walk", n_vertices=n, seed=1)
     front, kept = cut(standing, standing.vertices[:, 0] > FRONT)

@@ -52,6 +52,6 @@ def test_a_batch_on_a_cluster_is_the_batch_on_this_machine(address: str, tmp_pat
     given = ["batch", str(meshes), "-o", str(there), "--pairs", "consecutive", "--scheduler", address, "--json"]
     result = CliRunner().invoke(main, given)
     assert result.exit_code == 0, result.output
-    with local_client(2) as client:
+    with local_client(1) as client:
         assert not match_collection(meshes, here, pairs=consecutive, client=client).failed
     assert batches.tree(there) == batches.tree(here)

@@ -61,7 +61,7 @@ def test_a_script_without_a_main_guard_gets_one_error_with_a_code(tmp_path: Path
     script = tmp_path / "script.py"
     script.write_text(
         "import gmds\nfrom gmds.batch import starting\nstarting.STARTS = 1\n"
-        "shape = gmds.shapes.demo_pair()[0]\n"
+        "shape = gmds.shapes.quadruped(n_vertices=200)\n"
         "gmds.match_collection({'a': shape, 'b': shape}, 'out', client=gmds.batch.local_client(1))\n"
     )
     environment = {**os.environ, "PYTHONPATH": str(Path(gmds.__file__).parents[1])}

@@ -49,7 +49,7 @@ def test_all_that_is_right_scores_one_and_all_valid_scores_the_share() -> None:
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Half an animal and all of it, both ways, as `partial/pairs.json` has them."""
     root = tmp_path_factory.mktemp("data")
-    half, (there, true) = half_animal(), animal_on_half()
+    half, (there, true) = half_animal(1000), animal_on_half(1000)
     (root / "partial").mkdir()
     for name, mesh in (("half", half.part), ("whole", half.whole)):
         write_mesh(Mesh(mesh.vertices, mesh.faces), root / "partial" / f"{name}.off")
@@ -71,7 +71,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def by_truth(source: Mesh, target: Mesh) -> Correspondence:
     """The true map, in whatever position, with one vertex in ten called missing that is not, and one the other way."""
-    half, (there, true) = half_animal(), animal_on_half()
+    half, (there, true) = half_animal(1000), animal_on_half(1000)
     if source.n_vertices < target.n_vertices:
         points = SurfacePoints(target, half.true.face, half.true.barycentric)
         return Correspondence.from_points(source, points, valid=np.arange(len(points)) % 10 > 0)
@@ -85,8 +85,8 @@ def test_a_benchmark_of_parts_says_what_was_marked(folder: Path, tmp_path: Path)
     onto, back, silent = list(benchmark(dataset_pairs(folder), by_truth))
     assert (onto.overlap_iou, onto.valid_precision, onto.missing_found) == (onto.valid_recall, 100, None)
     assert onto.valid_recall == onto.valid == pytest.approx(90, abs=0.5)
-    mistakes = np.arange(half_animal().whole.n_vertices) % 10 == 0
-    there = np.isin(np.arange(len(mistakes)), animal_on_half()[0])
+    mistakes = np.arange(half_animal(1000).whole.n_vertices) % 10 == 0
+    there = np.isin(np.arange(len(mistakes)), animal_on_half(1000)[0])
     assert back.valid_recall == pytest.approx(100 * (1 - mistakes[there].mean()))
     assert back.missing_found == pytest.approx(100 * (1 - mistakes[~there].mean()))
     right, wrong = (there & ~mistakes).sum(), (~there & mistakes).sum()
@@ -99,7 +99,7 @@ def test_a_benchmark_of_parts_says_what_was_marked(folder: Path, tmp_path: Path)
 
 
 def test_evaluate_tells_the_overlap_where_the_truth_says_what_is_missing(folder: Path, tmp_path: Path) -> None:
-    half = half_animal()
+    half = half_animal(1000)
     whole, part = (Mesh(mesh.vertices, mesh.faces) for mesh in (half.whole, half.part))
     answer = by_truth(whole, part)
     answer.save(tmp_path / "map.npz")
@@ -120,7 +120,7 @@ def test_evaluate_tells_the_overlap_where_the_truth_says_what_is_missing(folder:
 
 
 def test_missing_is_read_and_checked(folder: Path, tmp_path: Path) -> None:
-    half = half_animal()
+    half = half_animal(1000)
     assert read_missing_npz(folder / "silent.npz") is None
     onto = read_missing_npz(folder / "onto.npz")
     assert onto is not None and len(onto) == 0

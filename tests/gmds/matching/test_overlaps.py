@@ -12,6 +12,8 @@ from geodesics import Mesh, SurfacePoints
 from gmds import Correspondence, MatchStatus
 from gmds.evaluation import geodesic_error
 
+pytestmark = pytest.mark.usefixtures("few_faces")
+
 
 @pytest.fixture(scope="module")
 def answer() -> Correspondence:

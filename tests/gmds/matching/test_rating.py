@@ -18,12 +18,13 @@ from gmds.matching.signs import signs_of
 from gmds.matching.weights import WEIGHTS
 from gmds.shapes import humanoid, quadruped, truth
 
-ANIMAL = quadruped(n_vertices=1200)
+pytestmark = pytest.mark.usefixtures("few_faces")
+ANIMAL = quadruped(n_vertices=600)
 
 
 @pytest.fixture(scope="module")
 def walking() -> gmds.Correspondence:
-    return gmds.match(ANIMAL, quadruped("walk", n_vertices=1200))
+    return gmds.match(ANIMAL, quadruped("walk", n_vertices=600))
 
 
 def test_another_pose_is_believed(walking: gmds.Correspondence) -> None:
@@ -35,7 +36,7 @@ def test_another_pose_is_believed(walking: gmds.Correspondence) -> None:
 
 def test_where_it_is_wrong_it_is_less_sure() -> None:
     """A person is no animal: most of the map is wrong, and said to be."""
-    answer = gmds.match(ANIMAL, humanoid(n_vertices=1200))
+    answer = gmds.match(ANIMAL, humanoid(n_vertices=600))
     assert answer.confidence.mean() < 0.5 and answer.status is MatchStatus.POOR
     assert answer.doubtful and any(note.startswith("W306: regions of the source") for note in answer.meta["notes"])
 
@@ -110,9 +111,9 @@ def commute_time(mesh: Mesh) -> CommuteTimeDistance:
 
 def test_plain_maps_have_a_model_of_their_own() -> None:
     """Nothing is registered, and a right map is believed all the same; a person is still no animal."""
-    walking = quadruped("walk", n_vertices=1200)
+    walking = quadruped("walk", n_vertices=600)
     answer = gmds.match(ANIMAL, walking, distance=commute_time)
     assert geodesic_error(answer, truth(ANIMAL, walking)).mean() < 0.04 and answer.status is MatchStatus.GOOD
-    other = gmds.match(ANIMAL, humanoid(n_vertices=1200), distance=commute_time)
+    other = gmds.match(ANIMAL, humanoid(n_vertices=600), distance=commute_time)
     assert other.status is not MatchStatus.GOOD and other.confidence.mean() < 0.5 < answer.confidence.mean()
     assert set(PLAIN_WEIGHTS) < set(WEIGHTS)

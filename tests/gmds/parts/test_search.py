@@ -13,6 +13,8 @@ from gmds.parts.search import APART, PartMap, belief, part_maps
 from gmds.registration.distinct import distinct
 from gmds.surface.measured import measure
 
+pytestmark = pytest.mark.usefixtures("few_faces")
+
 
 @pytest.fixture(scope="module")
 def pair() -> SurfacePair:

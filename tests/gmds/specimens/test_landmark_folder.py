@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import json
 import runpy
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import docs_files
 import numpy as np
 import pytest
 from click.testing import CliRunner, Result
 from places import ROOT
 from scipy.spatial.transform import Rotation
 
+import gmds.batch
 from geodesics import Mesh, write_mesh
 from gmds.cli import main
 from gmds.landmarks.files import Landmarks, read_landmarks
@@ -29,12 +33,12 @@ def done(tmp_path_factory: pytest.TempPathFactory) -> Done:
     """A template, the same turned and three times as large, one in another pose, half of that, and a broken file."""
     folder, out = tmp_path_factory.mktemp("specimens"), tmp_path_factory.mktemp("out")
     example = runpy.run_path(str(ROOT / "examples" / "morphometrics" / "landmark_specimens.py"))
-    example["write_animals"](folder, 500)
+    example["write_animals"](folder, 300)
     for path in folder.glob("*.ply"):
         if path.name != "template.ply":
             path.unlink()
-    marks, template = read_landmarks(folder / "template.csv"), quadruped(n_vertices=500)
-    walking = quadruped("walk", n_vertices=500, seed=1)
+    marks, template = read_landmarks(folder / "template.csv"), quadruped(n_vertices=300)
+    walking = quadruped("walk", n_vertices=300, seed=1)
     half = walking.faces[walking.rest[walking.faces][..., 0].mean(axis=1) > 0]
     write_mesh(Mesh(3 * template.vertices @ TURN.T, template.faces), folder / "a_turned.ply")
     write_mesh(walking, folder / "b_walking.ply")
@@ -46,6 +50,15 @@ def done(tmp_path_factory: pytest.TempPathFactory) -> Done:
     lines = [line for line in told.stderr.splitlines() if " pairs, " in line]
     assert len(lines) == 4 and sum("d_broken: failed" in line for line in lines) == 1, "a line a pair, by its name"
     return out, folder, template, walking, marks
+
+
+@pytest.fixture(scope="module")
+def worker() -> Iterator[Any]:
+    """A cluster that is there already, and small pictures; `done` starts a cluster, and draws as large as users see."""
+    with gmds.batch.local_client(1) as client, pytest.MonkeyPatch.context() as patch:
+        patch.setattr(gmds.batch, "local_client", lambda workers: contextlib.nullcontext(client))
+        patch.setattr("gmds.specimens.drawing.software", docs_files.small_pictures)
+        yield
 
 
 def gmds_landmarks(folder: Path, out: Path, template: str | Path | None = None) -> Result:
@@ -112,7 +125,7 @@ def test_what_needs_a_look_is_told_and_everything_is_drawn(done: Done) -> None:
     assert all(path.stat().st_size > 10_000 for path in [*pictures, done[0] / "sheet.png"])
 
 
-def test_other_units_and_other_names_are_told(done: Done, tmp_path: Path) -> None:
+def test_other_units_and_other_names_are_told(done: Done, worker: None, tmp_path: Path) -> None:
     """A specimen in micrometres among millimetres is listed; so is what a file is called whose name cannot stay."""
     folder = tmp_path / "folder"
     folder.mkdir()
@@ -127,7 +140,7 @@ def test_other_units_and_other_names_are_told(done: Done, tmp_path: Path) -> Non
     assert any("times as large as the median: in other units?" in why for why in reasons)
 
 
-def test_it_goes_on_where_it_was_and_makes_nothing_again(done: Done) -> None:
+def test_it_goes_on_where_it_was_and_makes_nothing_again(done: Done, worker: None) -> None:
     maps = {path.name: path.stat().st_mtime_ns for path in (done[0] / "maps" / "pairs").iterdir()}
     before = (done[0] / "landmarks.csv").read_bytes()
     gone = next(iter(maps))
@@ -139,7 +152,7 @@ def test_it_goes_on_where_it_was_and_makes_nothing_again(done: Done) -> None:
 
 
 @pytest.mark.parametrize("name", ["template", "template.ply"])
-def test_the_template_goes_by_its_name_in_the_folder(done: Done, name: str) -> None:
+def test_the_template_goes_by_its_name_in_the_folder(done: Done, worker: None, name: str) -> None:
     before = (done[0] / "landmarks.csv").read_bytes()
     assert gmds_landmarks(done[1], done[0], name).exit_code == 3  # as with its path: one file is broken
     assert (done[0] / "landmarks.csv").read_bytes() == before
