@@ -16,7 +16,8 @@ from gmds.matching.parts import PartCandidate, likely_candidates, matched_in, ne
 from gmds.matching.polishing import polished
 from gmds.mds.losses import Loss
 from gmds.parts.overlaps import curvature_neg_log_likelihood, overlap_maps
-from gmds.parts.search import APART, IN_PLACE
+from gmds.parts.part_map import IN_PLACE
+from gmds.parts.search import APART
 from gmds.registration.distinct import distinct
 from gmds.registration.register import Registered, settled
 from gmds.registration.settings import Stage

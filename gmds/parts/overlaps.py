@@ -9,7 +9,8 @@ import numpy as np
 
 from geodesics.threads import side_by_side
 from gmds.parts.alignments import Judged, alignments
-from gmds.parts.search import APART, IN_PLACE, ONTO_WHOLE
+from gmds.parts.part_map import IN_PLACE, ONTO_WHOLE
+from gmds.parts.search import APART
 from gmds.registration.deformable import DeformableMesh
 from gmds.registration.distinct import distinct
 from gmds.registration.register import Registered, register, returning, settled

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,12 +13,12 @@ from gmds.parts.alignments import Judged, alignments
 from gmds.parts.assignments import consistent_assignments
 from gmds.parts.extremities import Anchors, inner_extremities, with_interior
 from gmds.parts.local_stress import LocalStress
+from gmds.parts.part_map import IN_PLACE, ONTO_WHOLE, PartMap
+from gmds.parts.recombination import recombined
 from gmds.parts.trilateration import Trilateration
 from gmds.registration.deformable import DeformableMesh
 from gmds.registration.distinct import distinct
-from gmds.registration.energies import AsRigidAsPossible
 from gmds.registration.register import Registered, register, settled
-from gmds.registration.settings import COARSE, TO_IMAGES, RegistrationSettings, Stage
 from gmds.surface.measured import Surface
 
 # Chosen on the development half of the PFAUST pairs (benchmarks/results/notes.md, "Parts").
@@ -29,35 +28,10 @@ INTERIOR = (3, 30)  # of them, on the part and on the whole
 IMPROVED = 8  # of these, apart from each other, that are placed again by distances
 ROUNDS = 3  # of placing and deforming
 APART = 0.06  # root mean square distance, in root areas of the whole, between two maps that are two
-RECIPROCAL = 0.08  # root areas between a point of the whole and the image of what it is closest to, beyond which the
-# part has nothing there
 BELIEF_TIME = 3e-3  # heat time, in units of the area of the part, over which strain is averaged
 
 ALIGNED = 40  # alignments that are deformed; set by hand
 SIZES = (0.3, 1.0)  # of a part of unit area on a whole of unit area: a bound, a tenth of the area and all of it
-
-ONTO_WHOLE = RegistrationSettings((*TO_IMAGES, *COARSE), AsRigidAsPossible, partial=True, reciprocal=RECIPROCAL)
-"""Of a simplified part onto a simplified whole: what either lacks does not pull."""
-IN_PLACE = ONTO_WHOLE.with_stages((Stage(1e-2, 6), Stage(3e-3, 6)))
-"""From where it nearly fits."""
-
-
-@dataclass(frozen=True, eq=False)
-class PartMap:
-    """A simplified part `registered` on a simplified whole, `size` times as large as it is with unit area."""
-
-    registered: Registered
-    size: float
-
-    @property
-    def neg_log_likelihood(self) -> float:
-        """Minus the log-likelihood up to a constant: of the energy for a part of unit area, and of the curvature.
-
-        The way back says nothing where most of the whole has no counterpart, so it has no say.
-        """
-        residuals = self.registered.residuals
-        unexplained = np.sqrt(1 - np.clip(residuals.curvature, 0.0, 0.999) ** 2)
-        return float(np.log(max(np.sqrt(residuals.energy) / self.size, 1e-6)) + np.log(unexplained))
 
 
 def part_maps(
@@ -68,17 +42,17 @@ def part_maps(
     Extremities of both are assigned to each other where they agree on a scale (`consistent_assignments`), every vertex
     is placed by its distances from them (`Trilateration`), and the simplified part is deformed as that says; or it is
     deformed from where it fits as it is (`alignments`). Of the likeliest, vertices are placed anew by distances from
-    those that fit well (`LocalStress`), a few times.
+    those that fit well (`LocalStress`), a few times, and of these the likeliest is put together anew (`recombined`).
     """
     ours, theirs = side_by_side(inner_extremities, (source, target))
     begun = _aligned(source, target, meshes) + _from_anchors(source, target, meshes, ours, theirs, None)
     tell(0.4)
-    found = _improved(meshes, begun)
+    found = _put_together(meshes, _improved(meshes, begun))
     tell(0.6)
     if not found or found[0].neg_log_likelihood > DOUBTFUL:
         (ours, tips), (goals, ends) = with_interior(source, INTERIOR[0]), with_interior(target, INTERIOR[1])
         more = _from_anchors(source, target, meshes, ours, goals, tips[:, None] == ends[None])
-        found = distinct([*found, *_improved(meshes, more)], meshes[0].areas, APART)
+        found = _put_together(meshes, [*found, *_improved(meshes, more)])
     return found
 
 
@@ -87,7 +61,7 @@ def _aligned(source: Surface, target: Surface, meshes: tuple[DeformableMesh, Def
     ours, theirs = meshes
     found = alignments(Judged(source, ours), Judged(target, theirs), SIZES, ALIGNED)
     places = list(found.moved(ours.mesh.vertices))
-    return side_by_side(lambda y: _part_map(ours, settled(ours, theirs, y, IN_PLACE)), places)
+    return side_by_side(lambda y: PartMap.of(ours, settled(ours, theirs, y, IN_PLACE)), places)
 
 
 def _from_anchors(
@@ -115,6 +89,13 @@ def _improved(meshes: tuple[DeformableMesh, DeformableMesh], begun: Sequence[Par
     return distinct(side_by_side(functools.partial(improved, meshes), apart), meshes[0].areas, APART)
 
 
+def _put_together(meshes: tuple[DeformableMesh, DeformableMesh], found: Sequence[PartMap]) -> list[PartMap]:
+    """The maps, and what the likeliest became with regions of the others, the likeliest first."""
+    more = recombined(*meshes, found) if found else []
+    more += [improved(meshes, one) for one in more[-1:]]
+    return distinct([*more, *found], meshes[0].areas, APART)
+
+
 def improved(meshes: tuple[DeformableMesh, DeformableMesh], start: PartMap) -> PartMap:
     """The likeliest of the map and of what `ROUNDS` of placing by distances and deforming make of it."""
     source, target = meshes
@@ -137,10 +118,4 @@ def belief(source: DeformableMesh, registered: Registered) -> Floats:
 def _deformed(meshes: tuple[DeformableMesh, DeformableMesh], images: Integers) -> PartMap:
     """The simplified part deformed as a map to vertices of the simplified whole says."""
     source, target = meshes
-    return _part_map(source, register(source, target, target.mesh.vertices[images], ONTO_WHOLE))
-
-
-def _part_map(source: DeformableMesh, registered: Registered) -> PartMap:
-    local = source.energy(ONTO_WHOLE.energy).local_step(registered.y)
-    size = float(np.sqrt(np.einsum("nab,nab->n", local, local) @ source.areas / 3))
-    return PartMap(registered, max(size, 1e-6))
+    return PartMap.of(source, register(source, target, target.mesh.vertices[images], ONTO_WHOLE))

@@ -8,7 +8,8 @@ import pytest
 from geodesics.arrays import Bools, Floats
 from gmds.matching.pair import SurfacePair
 from gmds.matching.proposals import Proposal
-from gmds.matching.recombination import exchanged, recombined, regions
+from gmds.matching.recombination import recombined
+from gmds.registration.hybrids import exchanged, regions
 from gmds.shapes import quadruped, truth
 from gmds.surface.measured import measure
 

@@ -9,7 +9,8 @@ from generated_shapes import rectangle
 
 from gmds.matching.pair import SurfacePair
 from gmds.parts.extremities import inner_extremities
-from gmds.parts.search import APART, PartMap, belief, part_maps
+from gmds.parts.part_map import PartMap
+from gmds.parts.search import APART, belief, part_maps
 from gmds.registration.distinct import distinct
 from gmds.surface.measured import measure
 

@@ -10,8 +10,8 @@ import gmds
 from geodesics.arrays import Bools, Floats
 from gmds.matching.pair import SurfacePair
 from gmds.matching.proposals import Proposal
-from gmds.matching.realignment import SIZES, laid_anew, realigned
 from gmds.matching.recombination import recombined
+from gmds.parts.realignment import SIZES, laid_anew, realigned
 from gmds.shapes import quadruped, truth
 from gmds.surface.measured import measure
 

@@ -8,7 +8,7 @@ source registered anew. Similarities are improved by closest points (Besl and Mc
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -29,7 +29,7 @@ from gmds.registration.deformable import DeformableMesh
 CENTRES = 24
 SHARES = (0.04, 0.08, 0.15)
 ROOM = 1.8
-SIZES = (0.6, 1.6)  # of a region on the target: a bound
+SIZES = (0.6, 1.6)  # of a region on the target, times that of the source there: a bound
 # Of the root of a region's area: what is as far from the other surface belongs to nothing there, and within what
 # closest points are believed; set by hand.
 REACH = 0.3
@@ -54,27 +54,34 @@ class Placement(NamedTuple):
     cost: float
 
 
-def realigned(source: DeformableMesh, target: DeformableMesh, y: Floats) -> list[Floats]:
-    """Where vertices go (n, 3) by a map to y (n, 3) and, in one region, by a place that fits it better; best first."""
+def realigned(
+    source: DeformableMesh, target: DeformableMesh, y: Floats, size: float = 1.0, shares: Sequence[float] = SHARES
+) -> list[Floats]:
+    """Where vertices go (n, 3) by a map to y (n, 3) and, in one region, by a place that fits it better; best first.
+
+    On the target the source is `size` times as large as it is. Regions have these `shares` of its area.
+    """
     places = []
-    for laid in laid_anew(source, target, y)[:MOST]:
+    for laid in laid_anew(source, target, y, size, shares)[:MOST]:
         places.append(y.copy())
         places[-1][laid.vertices] = laid.y
     return places
 
 
-def laid_anew(source: DeformableMesh, target: DeformableMesh, y: Floats) -> list[Placement]:
+def laid_anew(
+    source: DeformableMesh, target: DeformableMesh, y: Floats, size: float = 1.0, shares: Sequence[float] = SHARES
+) -> list[Placement]:
     """Regions with places that fit better than where the map to y (n, 3) sends them, the best first."""
     distance = GeodesicDistance(embedded(source.mesh))
     centres = farthest_point_sampling(distance, min(CENTRES, len(source.usable)), int(source.usable[0]))
     images = target.usable[cKDTree(target.mesh.vertices[target.usable]).query(y[centres])[1]]
     found: list[Placement] = []
     for here, beyond in zip(_distances(source, centres), _distances(target, images), strict=True):
-        for share in SHARES:
-            one = Patch(source, _nearest(source, here, share))
-            other = Patch(target, _nearest(target, beyond, ROOM * share))
-            middle = target.mesh.vertices[_nearest(target, beyond, share)].mean(axis=0)
-            found += _better(one, other, y[one.vertices], middle)
+        for share in shares:
+            one, there = Patch(source, _nearest(source, here, share)), share * size**2
+            other = Patch(target, _nearest(target, beyond, ROOM * there))
+            middle = target.mesh.vertices[_nearest(target, beyond, there)].mean(axis=0)
+            found += _better(one, other, y[one.vertices], middle, size)
     return sorted(found, key=lambda laid: laid.cost)
 
 
@@ -119,17 +126,17 @@ class Patch:
         return outside
 
 
-def _better(one: Patch, other: Patch, y: Floats, middle: Floats) -> Iterator[Placement]:
+def _better(one: Patch, other: Patch, y: Floats, middle: Floats, size: float) -> Iterator[Placement]:
     """Places of a region on another that cost less than that of the map, which sends its vertices to y (k, 3)."""
-    own = _fitted(one, y)
+    own, there = _fitted(one, y, size), one.size * size
     turned = np.einsum("ab,kbc->kac", own.rotations[0], ALL_SIDES)
     sizes = np.full(len(turned), own.sizes[0])
     shifts = middle - own.sizes[0] * turned @ (one.areas @ one.places)
     begun = [np.concatenate(both) for both in ((own.rotations, turned), (own.sizes, sizes), (own.shifts, shifts))]
     tried, ours, theirs = Similarities(*begun), one.arrays(), other.arrays()
-    costs = _refined(tried, ours, theirs, one.size, FIRST_STEPS)
+    costs = _refined(tried, ours, theirs, there, size, FIRST_STEPS)
     tried = tried[np.append(0, 1 + np.argsort(costs[1:], kind="stable")[:MOST_REFINED])]
-    costs = _refined(tried, ours, theirs, one.size, STEPS - FIRST_STEPS)
+    costs = _refined(tried, ours, theirs, there, size, STEPS - FIRST_STEPS)
     places = tried.moved(one.places)
     kept: list[Floats] = []
     for row in np.argsort(costs, kind="stable"):
@@ -140,19 +147,21 @@ def _better(one: Patch, other: Patch, y: Floats, middle: Floats) -> Iterator[Pla
             yield Placement(one.vertices, places[row], float(costs[row] / costs[0]))
 
 
-def _refined(tried: Similarities, ours: tuple[Any, ...], theirs: tuple[Any, ...], size: float, steps: int) -> Floats:
-    """The costs (k,) of similarities after so many steps of closest points, in place, of a region of this size."""
-    refined_alignments(*tried.arrays, ours, theirs, CLOSEST_REACH * size, steps, *SIZES)
-    return alignment_costs(*tried.arrays, ours, theirs, REACH * size, TURN, MISSING)
+def _refined(
+    tried: Similarities, ours: tuple[Any, ...], theirs: tuple[Any, ...], width: float, size: float, steps: int
+) -> Floats:
+    """The costs (k,) of similarities after so many steps of closest points, in place, of a region of this width."""
+    refined_alignments(*tried.arrays, ours, theirs, CLOSEST_REACH * width, steps, SIZES[0] * size, SIZES[1] * size)
+    return alignment_costs(*tried.arrays, ours, theirs, REACH * width, TURN, MISSING)
 
 
-def _fitted(one: Patch, y: Floats) -> Similarities:
+def _fitted(one: Patch, y: Floats, size: float) -> Similarities:
     """The similarity that is closest to the map of a region to y (k, 3)."""
     x, areas = one.places, one.areas
     x, goals = x - areas @ x, y - areas @ y
     rotations, sums = nearest_rotations(np.ascontiguousarray(((areas[:, None] * x).T @ goals)[None]))
     spread = max(float(areas @ (x**2).sum(axis=1)), np.finfo(float).tiny)  # that of a region in one place is 0
-    sizes = np.clip(sums / spread, *SIZES)
+    sizes = np.clip(sums / spread, SIZES[0] * size, SIZES[1] * size)
     return Similarities(rotations, sizes, areas @ y - sizes * (rotations @ (areas @ one.places)))
 
 
