@@ -40,6 +40,17 @@ def inner_extremities(surface: Surface) -> Anchors:
     A maximum counts when it stands out: by persistence (Edelsbrunner, Letscher, Zomorodian 2002). The mean distance
     changes when a part is cut off, but not where its maxima are.
     """
+    return _extremities(surface, near_boundary(surface.mesh))
+
+
+@memoized
+def all_extremities(surface: Surface) -> Anchors:
+    """`inner_extremities`, and those beside a boundary: tips of hands that are seen from one side, corners of cuts."""
+    return _extremities(surface, np.zeros(surface.mesh.n_vertices, dtype=np.bool_))
+
+
+def _extremities(surface: Surface, not_here: Bools) -> Anchors:
+    """Extremities that are apart, the farthest first, but for those at vertices (n,) where there may be none."""
     mesh = surface.mesh
     distance = distances_across(mesh)
     usable, samples = surface.regular.usable, surface.regular.samples(SAMPLES)
@@ -47,7 +58,7 @@ def inner_extremities(surface: Surface) -> Anchors:
     share = np.bincount(fields[:, usable].argmin(axis=0), surface.areas[usable], len(samples))
     mean = np.asarray(share @ np.where(np.isfinite(fields), fields, 0.0), dtype=np.float64)
     peaks = persistent_maxima(mesh, mean, PERSISTENCE * float(np.ptp(mean[usable])))
-    peaks = peaks[~near_boundary(mesh)[peaks]]
+    peaks = peaks[~not_here[peaks]]
     if len(peaks) == 0:
         return Anchors(peaks, np.zeros((0, mesh.n_vertices)))
     fields = distance(peaks)

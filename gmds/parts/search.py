@@ -11,7 +11,7 @@ from geodesics.arrays import Bools, Floats, Integers
 from geodesics.threads import side_by_side
 from gmds.parts.alignments import Judged, alignments
 from gmds.parts.assignments import consistent_assignments
-from gmds.parts.extremities import Anchors, inner_extremities, with_interior
+from gmds.parts.extremities import Anchors, all_extremities, inner_extremities, with_interior
 from gmds.parts.local_stress import LocalStress
 from gmds.parts.part_map import IN_PLACE, ONTO_WHOLE, PartMap
 from gmds.parts.recombination import recombined
@@ -41,13 +41,18 @@ def part_maps(
 
     Extremities of both are assigned to each other where they agree on a scale (`consistent_assignments`), every vertex
     is placed by its distances from them (`Trilateration`), and the simplified part is deformed as that says; or it is
-    deformed from where it fits as it is (`alignments`). Of the likeliest, vertices are placed anew by distances from
-    those that fit well (`LocalStress`), a few times, and of these the likeliest is put together anew (`recombined`).
+    deformed from where it fits as it is (`alignments`). A part of which all extremities are at its boundary, as of a
+    scan from one side, has those. Of the likeliest, vertices are placed anew by distances from those that fit well
+    (`LocalStress`), a few times, and of these the likeliest is put together anew (`recombined`).
     """
     ours, theirs = side_by_side(inner_extremities, (source, target))
     begun = _aligned(source, target, meshes) + _from_anchors(source, target, meshes, ours, theirs, None)
     tell(0.4)
-    found = _put_together(meshes, _improved(meshes, begun))
+    found = _improved(meshes, begun)
+    if len(ours.vertices) < 2:
+        at_cuts = _from_anchors(source, target, meshes, all_extremities(source), theirs, None)
+        found = [*found, *_improved(meshes, at_cuts)]
+    found = _put_together(meshes, found)
     tell(0.6)
     if not found or found[0].neg_log_likelihood > DOUBTFUL:
         (ours, tips), (goals, ends) = with_interior(source, INTERIOR[0]), with_interior(target, INTERIOR[1])

@@ -13,16 +13,18 @@ from hypothesis import strategies as st
 
 from geodesics import Mesh
 from geodesics.arrays import Floats
+from gmds.deformations import scan
 from gmds.parts.extremities import (
     APART,
     MOST,
     RINGS,
+    all_extremities,
     inner_extremities,
     near_boundary,
     persistent_maxima,
     with_interior,
 )
-from gmds.shapes import quadruped
+from gmds.shapes import humanoid, quadruped
 from gmds.surface.measured import measure
 
 MESHES = {
@@ -148,3 +150,24 @@ def test_points_inside_are_apart_from_extremities_and_each_other(animal: Mesh) -
         assert np.allclose(anchors.distances[np.arange(len(ends)), anchors.vertices], 0)
     apart = anchors.distances[:, anchors.vertices].min(axis=0, where=~np.eye(len(ends), dtype=bool), initial=9)
     assert apart.min() > 0.05
+
+
+def test_hands_and_feet_of_a_scan_are_extremities_although_they_are_at_its_boundary() -> None:
+    seen = measure(scan(humanoid(n_vertices=800), (1, 0, 0))[0])
+    assert len(inner_extremities(seen).vertices) < 2
+    found = all_extremities(seen)
+    at = seen.original.vertices[found.vertices]
+    body = seen.original.vertices
+    for tip in (body[:, 1].argmin(), body[:, 1].argmax(), body[:, 2].argmax()):  # both hands, and the top of the head
+        assert np.linalg.norm(at - body[tip], axis=1).min() < 0.1
+    assert (at[:, 2] < 0.2).sum() == 2  # feet
+    assert len(found.vertices) <= MOST
+
+
+def test_inner_extremities_are_those_of_all_that_are_not_beside_a_boundary() -> None:
+    body = quadruped(n_vertices=800)
+    part = measure(cut(body, body.vertices[:, 0] > -0.1)[0])
+    inner, everywhere = inner_extremities(part).vertices, all_extremities(part).vertices
+    beside = near_boundary(part.mesh)
+    assert 1 < len(inner) < len(everywhere)
+    assert not beside[inner].any() and beside[everywhere].any()
