@@ -1,11 +1,10 @@
-"""Where the time of a match goes: CPU seconds by stage, by function, and outside of the interpreter's lock.
+"""Where the time of a match goes: CPU seconds by stage, with slopes in the number of vertices, and by function.
 
     GMDS_DATA=... python -m benchmarks.cost.profile_match
 
 Warm, on one thread. Stages are those that `match` reports, for pairs of 5,000 vertices a side that are easy, locally
 scaled, of two species, and a part, and for two poses of a cat at three sizes, with the slope of each stage in the
-number of vertices. Functions by cProfile, which adds a tenth, of the cats. A second thread that wakes every
-millisecond tells how often nobody has the interpreter's lock. Writes results/profile.md.
+number of vertices. Functions by cProfile, which adds a tenth, of the cats. Writes results/profile.md.
 """
 
 from __future__ import annotations
@@ -13,12 +12,9 @@ from __future__ import annotations
 import cProfile
 import os
 import pstats
-import sys
-import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -33,8 +29,6 @@ from gmds.deformations import cut
 PAGE = RESULTS / "profile.md"
 PACKAGES = ("gmds", "geodesics")
 MOST, LEAST = 30, 0.05  # rows of a table, and seconds that a row must have
-INTERVAL = 1e-3  # seconds between two looks at the lock
-HELD = 3e-4  # seconds by which a look is late, above which the lock was held: twice what waking takes
 STAGES = ("measuring", "proposing", "embedding", "refining", "looking for the part")
 
 
@@ -67,30 +61,6 @@ def by_stage(source: Mesh, target: Mesh) -> dict[str, float]:
 def fresh(mesh: Mesh) -> Mesh:
     """The same, with nothing known of it yet."""
     return Mesh(mesh.vertices, mesh.faces)
-
-
-def unlocked(work: Callable[[], Any]) -> float:
-    """The share of looks at which the interpreter's lock was free while `work` ran."""
-    late: list[float] = []
-    over = threading.Event()
-
-    def look() -> None:
-        while not over.is_set():
-            due = time.perf_counter() + INTERVAL
-            time.sleep(INTERVAL)
-            late.append(time.perf_counter() - due)
-
-    interval = sys.getswitchinterval()
-    watcher = threading.Thread(target=look)
-    watcher.start()
-    sys.setswitchinterval(2 * HELD)  # whoever has the lock gives it up after that, when it is asked for
-    try:
-        work()
-    finally:
-        sys.setswitchinterval(interval)
-        over.set()
-        watcher.join()
-    return float(np.mean(np.array(late) < HELD))
 
 
 def by_function(source: Mesh, target: Mesh) -> list[tuple[float, float, int, str]]:
@@ -135,9 +105,6 @@ def main() -> None:
     steps = [f"{one} to {other}" for one, other in zip(SIZES, list(SIZES)[1:], strict=False)]
     rows = [[name, *(f"{value:.2f}" for value in row)] for name, row in zip(steps, slopes, strict=True)]
     lines += table(["sizes", *STAGES[:4], "all"], rows)
-    shares = [(name, unlocked(lambda: match(fresh(one), fresh(other)))) for name, one, other in pairs]  # noqa: B023
-    lines += ["## Without the interpreter's lock", "", "Share of the time; what two threads can do at once.", ""]
-    lines += table(["pair", "share"], [[name, f"{share:.0%}"] for name, share in shares])
     functions = by_function(*sizes["5k"])
     total = max(row[0] for row in functions)
     for title, place in (("With what it calls", 0), ("Own time, the compiled code that it calls included", 1)):
