@@ -16,17 +16,11 @@ from geodesics.threads import side_by_side
 from gmds.matching.pair import SurfacePair
 from gmds.matching.proposals import Proposal, cheapest
 from gmds.parts.realignment import realigned
-from gmds.registration.hybrids import hybrids, untried
+from gmds.registration.hybrids import MOST_SETTLED, better_hybrids
 from gmds.registration.register import Registered, register, settled
 from gmds.registration.settings import COARSE, SIMPLIFIED, TO_IMAGES
 
-# Rounds, and how many maps of each are registered to the end, and the way back: set by hand.
-MOST_ROUNDS = 4
-MOST_SETTLED = 6
-MOST_RETURNED = 3
-# Of log-likelihood in a round, as of annealing: less makes maps better as often as worse (benchmarks/results/notes.md,
-# "Recombination").
-LEAST_GAIN = 0.1
+MOST_RETURNED = 3  # maps of a round that are registered the way back; set by hand
 
 
 def recombined(pair: SurfacePair, maps: Sequence[Proposal], more: Sequence[Registered] = ()) -> list[Proposal]:
@@ -37,23 +31,15 @@ def recombined(pair: SurfacePair, maps: Sequence[Proposal], more: Sequence[Regis
     source, target = pair.simplified
     begin, settle = SIMPLIFIED.with_stages(TO_IMAGES), SIMPLIFIED.with_stages(COARSE)
     best, *rest = sorted(maps, key=_unlikeliness)
-    others = [*(one.registered for one in rest), *more]
-    found: list[Proposal] = []
-    tried: list[Floats] = []
-    for _ in range(MOST_ROUNDS):
-        y = best.registered.y
-        changed = [*hybrids(source, y, [one.y for one in others]), *realigned(source, target, y)]
-        places = untried(source, changed, tried)
+
+    def likeliest(places: list[Floats]) -> Proposal | None:
         begun = side_by_side(lambda place: register(source, target, place, begin), places)
         there = side_by_side(lambda one: settled(source, target, one.y, settle), cheapest(begun)[:MOST_SETTLED])
         back = side_by_side(lambda one: Proposal.completed(pair, one, SIMPLIFIED), cheapest(there)[:MOST_RETURNED])
-        likeliest = min(back, key=_unlikeliness, default=best)
-        if likeliest.neg_log_likelihood > best.neg_log_likelihood - LEAST_GAIN:
-            break
-        others.append(best.registered)
-        best = replace(likeliest, improved=True)
-        found.append(best)
-    return found
+        return replace(min(back, key=_unlikeliness), improved=True) if back else None
+
+    others = [*(one.registered for one in rest), *more]
+    return better_hybrids(source, best, others, lambda now: realigned(source, target, now.registered.y), likeliest)
 
 
 def _unlikeliness(one: Proposal) -> float:

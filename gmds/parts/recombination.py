@@ -12,42 +12,29 @@ from geodesics.threads import side_by_side
 from gmds.parts.part_map import ONTO_WHOLE, PartMap
 from gmds.parts.realignment import realigned
 from gmds.registration.deformable import DeformableMesh
-from gmds.registration.hybrids import hybrids, untried
+from gmds.registration.hybrids import MOST_SETTLED, better_hybrids
 from gmds.registration.register import register, settled
 from gmds.registration.settings import COARSE, TO_IMAGES
 
 SHARES = (0.04, 0.08, 0.15, 0.3)  # of the area of a part, of which a limb may be a third; set by hand
-# As of maps of a whole: benchmarks/results/notes.md, "Recombination".
-MOST_ROUNDS = 4
-MOST_SETTLED = 6
-LEAST_GAIN = 0.1
 
 BEGIN, SETTLE = ONTO_WHOLE.with_stages(TO_IMAGES), ONTO_WHOLE.with_stages(COARSE)
 
 
 def recombined(source: DeformableMesh, target: DeformableMesh, maps: Sequence[PartMap]) -> list[PartMap]:
     """What the likeliest of some maps of a part became, step by step; none if nothing is likelier."""
-    best, *others = sorted(maps, key=_unlikeliness)
-    found: list[PartMap] = []
-    tried: list[Floats] = []
-    for _ in range(MOST_ROUNDS):
-        y = best.registered.y
-        changed = [
-            *hybrids(source, y, [one.registered.y for one in others]),
-            *realigned(source, target, y, best.size, SHARES),
-        ]
-        begun = side_by_side(
-            lambda place: PartMap.of(source, register(source, target, place, BEGIN)), untried(source, changed, tried)
-        )
+    best, *rest = sorted(maps, key=_unlikeliness)
+
+    def likeliest(places: list[Floats]) -> PartMap | None:
+        begun = side_by_side(lambda place: PartMap.of(source, register(source, target, place, BEGIN)), places)
         likely = sorted(begun, key=_unlikeliness)[:MOST_SETTLED]
         done = side_by_side(lambda one: PartMap.of(source, settled(source, target, one.registered.y, SETTLE)), likely)
-        likeliest = min(done, key=_unlikeliness, default=best)
-        if likeliest.neg_log_likelihood > best.neg_log_likelihood - LEAST_GAIN:
-            break
-        others.append(best)
-        best = likeliest
-        found.append(best)
-    return found
+        return min(done, key=_unlikeliness, default=None)
+
+    def laid_anew(now: PartMap) -> list[Floats]:
+        return realigned(source, target, now.registered.y, now.size, SHARES)
+
+    return better_hybrids(source, best, [one.registered for one in rest], laid_anew, likeliest)
 
 
 def _unlikeliness(one: PartMap) -> float:

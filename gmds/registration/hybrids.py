@@ -7,7 +7,7 @@ nothing is random).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -15,6 +15,8 @@ from scipy.spatial import cKDTree
 from geodesics.arrays import Bools, Floats
 from geodesics.topology.edges import components, edges
 from gmds.registration.deformable import DeformableMesh
+from gmds.registration.distinct import M
+from gmds.registration.register import Registered
 
 # Root areas of the target between where two maps lead, smoothed over the surface in this heat time, from which they
 # differ there: 0.07 did no better on development pairs (benchmarks/results/notes.md, "Recombination"). Shares of the
@@ -24,6 +26,36 @@ SMOOTHING_TIME = 2e-3
 SHARES = (0.01, 0.5)
 HALF = 0.5  # of a region comes to where another was, if they are exchanged: a bound
 SAME = 0.02  # root areas, root mean square, below which two maps are put together alike: a bound
+MOST_ROUNDS = 4  # set by hand
+# Of log-likelihood in a round, as of annealing: less makes maps better as often as worse (benchmarks/results/notes.md,
+# "Recombination").
+LEAST_GAIN = 0.1
+MOST_SETTLED = 6  # maps of a round, by what they cost after few iterations, that are registered to the end; set by hand
+
+
+def better_hybrids(
+    source: DeformableMesh,
+    best: M,
+    others: Iterable[Registered],
+    laid_anew: Callable[[M], Iterable[Floats]],
+    likeliest: Callable[[list[Floats]], M | None],
+) -> list[M]:
+    """What a map became, step by step, with regions of others and those `laid_anew`; none if nothing is likelier.
+
+    `likeliest` registers the source from each of some places (n, 3), and returns the likeliest map of them, if any.
+    """
+    found: list[M] = []
+    tried: list[Floats] = []
+    others = list(others)
+    for _ in range(MOST_ROUNDS):
+        changed = [*hybrids(source, best.registered.y, [one.y for one in others]), *laid_anew(best)]
+        now = likeliest(untried(source, changed, tried))
+        if now is None or now.neg_log_likelihood > best.neg_log_likelihood - LEAST_GAIN:
+            break
+        others.append(best.registered)
+        best = now
+        found.append(best)
+    return found
 
 
 def regions(source: DeformableMesh, one: Floats, other: Floats) -> list[Bools]:
