@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from geodesics import Mesh, read_mesh
+from geodesics.topology.edge_paths import edge_distances
 from gmds.deformations import local_scaling
-from gmds.deformations.limbs import edge_distances
 from gmds.shapes import humanoid, quadruped
 from gmds.shapes.figure import figure
 from gmds.shapes.implicit import Cone, Ellipsoid

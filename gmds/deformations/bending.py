@@ -6,8 +6,9 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from geodesics import Mesh, SurfacePoints
+from geodesics.topology.edge_paths import edge_distances
 from gmds.deformations.fitting import fit
-from gmds.deformations.limbs import edge_distances, extremities
+from gmds.deformations.limbs import extremities
 from gmds.deformations.truths import moved
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from geodesics import Mesh, SurfacePoints
-from gmds.deformations.limbs import edge_distances
+from geodesics.topology.edge_paths import edge_distances
 
 
 def gluing(mesh: Mesh, count: int = 1, *, rng: int = 0) -> tuple[Mesh, SurfacePoints]:

@@ -6,8 +6,8 @@ import numpy as np
 
 from geodesics import Mesh
 from geodesics.errors import BadArgument
+from geodesics.topology.edge_paths import edge_distances
 from gmds.deformations.kept_faces import largest_piece, part
-from gmds.deformations.limbs import edge_distances
 from gmds.deformations.truths import Part
 
 

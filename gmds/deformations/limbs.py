@@ -3,27 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy.sparse as sp
-from scipy.sparse.csgraph import dijkstra
 
 from geodesics import Mesh
-from geodesics.arrays import Floats, Integers
-from geodesics.caching import memoized
-from geodesics.topology.edges import edge_ends, edge_keys
-
-
-def edge_distances(mesh: Mesh, sources: Integers) -> Floats:
-    """Length of the shortest path along edges from each source to every vertex (k, n), +inf where there is none."""
-    return np.atleast_2d(dijkstra(_edge_lengths(mesh), directed=False, indices=sources))
-
-
-@memoized
-def _edge_lengths(mesh: Mesh) -> sp.csr_matrix:
-    i, j = mesh.faces.ravel(), mesh.faces[:, [1, 2, 0]].ravel()
-    length = np.linalg.norm(mesh.vertices[i] - mesh.vertices[j], axis=1)
-    n = mesh.n_vertices
-    keys, first = np.unique(edge_keys(i, j, n), return_index=True)
-    return sp.coo_matrix((length[first], edge_ends(keys, n).T), shape=(n, n)).tocsr()
+from geodesics.arrays import Integers
+from geodesics.topology.edge_paths import edge_distances
 
 
 def extremities(mesh: Mesh, samples: int = 60) -> tuple[Integers, int]:

@@ -9,8 +9,9 @@ from geodesics import Mesh, SurfacePoints
 from geodesics.arrays import Floats
 from geodesics.errors import BadShape
 from geodesics.one_ring import one_ring_areas
+from geodesics.topology.edge_paths import edge_distances
 from gmds.deformations.fitting import fit
-from gmds.deformations.limbs import edge_distances, extremities
+from gmds.deformations.limbs import extremities
 from gmds.deformations.truths import moved
 
 

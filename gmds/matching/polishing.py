@@ -10,6 +10,7 @@ from geodesics.threads import side_by_side
 from gmds.matching.candidates import MapCandidate, registered
 from gmds.matching.evidence import evidence
 from gmds.matching.pair import SurfacePair
+from gmds.registration.contacts import taken_back
 from gmds.registration.register import Registered, both_ways, settled
 from gmds.registration.settings import REFINEMENT, SPECTRAL, RegistrationSettings
 from gmds.spectral.refinement import ROUNDS, upsampled
@@ -31,8 +32,9 @@ def polished(candidate: MapCandidate, progress: Callable[[float], None] | None =
     """The map refined further, for as long as the elastic energy of the deformation gets less.
 
     It is refined spectrally and registered again; then eigenfunctions take part in the search for closest points, if
-    that pays; then the target is registered to the source as well, and what both say is brought together. Of two
-    registrations that cost nearly the same both are, and the likelier is the map.
+    that pays; then the target is registered to the source as well, and what both say is brought together; then what
+    lies on a sheet that it only touches is taken back. Of two registrations that cost nearly the same both are
+    refined, and the likelier is the map.
     """
     if candidate.deformation.residuals.is_congruence:
         return candidate
@@ -49,10 +51,9 @@ def _polished(
     report(0.3)
     deformation, settings = with_eigenfunctions(pair, deformation)
     deformation = there_and_back(pair, deformation, settings, report)
-    weighed = evidence(
-        pair, candidate.views, deformation.points, candidate.evidence.both_simplified, deformation.residuals
-    )
-    return replace(candidate, points=deformation.points, deformation=deformation, evidence=weighed, other=None)
+    points = taken_back(*pair.full, deformation)
+    weighed = evidence(pair, candidate.views, points, candidate.evidence.both_simplified, deformation.residuals)
+    return replace(candidate, points=points, deformation=deformation, evidence=weighed, other=None)
 
 
 def refined(pair: SurfacePair, deformation: Registered) -> Registered:

@@ -9,7 +9,7 @@ from geodesics import Mesh
 from geodesics.arrays import Floats, Integers
 from geodesics.caching import memoized
 from geodesics.topology.components import vertex_components
-from gmds.deformations.limbs import edge_distances
+from geodesics.topology.edge_paths import edge_distances
 from gmds.pictures.colours import oklab_to_rgb, position_oklab
 
 # OKLab of tips. Any two are 30 apart in CIEDE2000, 19 to eyes without green or red (Machado, Oliveira, Fernandes 2009),

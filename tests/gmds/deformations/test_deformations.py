@@ -12,8 +12,9 @@ from generated_shapes import ellipsoid, icosphere, joined, rectangle, torus, wit
 from geodesics import Mesh, MeshError, SurfacePoints, intrinsic, scale_invariant
 from geodesics.errors import BadShape, NotManifold
 from geodesics.topology.components import boundary_vertices, vertex_components
+from geodesics.topology.edge_paths import edge_distances
 from gmds import deformations as d
-from gmds.deformations.limbs import edge_distances, extremities
+from gmds.deformations.limbs import extremities
 from gmds.shapes import quadruped
 
 EVERY = {

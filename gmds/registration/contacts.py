@@ -1,0 +1,111 @@
+"""Where a surface touches itself: what a map has put on the other sheet is taken back.
+
+A hand on a thigh, or on the other hand, is closer in space to what it touches than registration tells apart, and some
+of it is sent there. Such a part is an island: wherever it begins, neighbours go to places that are near in space, but
+far apart along the target. It is smaller than the rest, which is continuous and therefore right.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.sparse as sp
+
+from geodesics import SurfacePoints
+from geodesics.arrays import Bools, Floats, Integers
+from geodesics.caching import memoized
+from geodesics.topology.edge_paths import distances_to_nearest, edge_distances
+from geodesics.topology.edges import components, edges
+from gmds.registration.deformable import DeformableMesh
+from gmds.registration.register import Registered
+
+# Root areas along the target between the images of neighbours, and mean edges of it, beyond which they are on two
+# sheets; share of the area that an island has at the most, and what is not one at the least. On development pairs of
+# FAUST such jumps are of 0.7 root areas and more, and islands have 0.015 of the area at the most
+# (benchmarks/results/notes.md, "Contacts").
+JUMP = 0.2
+EDGES = 5
+MOST = 0.1
+LEAST_REST = 0.5
+RINGS = 3  # around an image, where nothing is far: a bound, so that few paths are looked for
+# How much longer a path on the target may be than that on the source, and root areas that come on top; set by hand.
+STRETCH = 1.5
+ROOM = 0.03
+
+
+def taken_back(source: DeformableMesh, target: DeformableMesh, one: Registered) -> SurfacePoints:
+    """The points (n,) of a registered source, those of islands moved to the sheet that their surroundings are on.
+
+    A vertex of an island goes to the closest point, in position and normal, among what is no farther from the images of
+    the rim of the island, along the target, than the vertex is from that rim, but for some stretch.
+    """
+    images = one.points.nearest_vertices()
+    ends = edges(source.mesh).ends
+    lost = islands(source, ends[~jumps(target, images[ends])])
+    if not lost.any():
+        return one.points
+    rows, goals = source.moved_features(one.y), images.copy()
+    for island in _connected(lost, ends):
+        inside = np.isin(ends, island)
+        rim = np.unique(ends[inside.any(axis=1) & ~inside.all(axis=1)])
+        rim = rim[~lost[rim]]
+        if len(rim):
+            goals[island] = _among_near(source, target, island, rim, rows[island], images[rim])
+    moved = np.flatnonzero(goals != images)
+    found = target.closest(rows[moved], target.features, goals[moved])
+    face, weights = one.points.face.copy(), one.points.barycentric.copy()
+    face[moved], weights[moved] = found.face, found.barycentric
+    return SurfacePoints(one.points.mesh, face, weights)
+
+
+def jumps(target: DeformableMesh, images: Integers) -> Bools:
+    """Whether vertices of the target, in pairs (e, 2), are far apart along it."""
+    far = np.flatnonzero(~np.asarray(_rings(target)[images[:, 0], images[:, 1]], dtype=np.bool_).ravel())
+    result = np.zeros(len(images), dtype=np.bool_)
+    if len(far):
+        ends = edges(target.mesh).ends
+        length = np.linalg.norm(np.subtract(*target.mesh.vertices[ends.T]), axis=1).mean()
+        begin, row = np.unique(images[far, 0], return_inverse=True)
+        distance = edge_distances(target.mesh, begin, max(JUMP, EDGES * float(length)))
+        result[far] = np.isinf(distance[row, images[far, 1]])
+    return result
+
+
+@memoized
+def _rings(mesh: DeformableMesh) -> sp.csr_matrix:
+    """Which vertices (n, n) are within `RINGS` edges of each other."""
+    n = mesh.mesh.n_vertices
+    ends = edges(mesh.mesh).ends
+    steps = sp.coo_matrix((np.ones(len(ends), dtype=np.int32), ends.T), shape=(n, n)).tocsr()
+    steps = steps + steps.T + sp.identity(n, dtype=np.int32, format="csr")
+    return sp.csr_matrix(steps**RINGS)
+
+
+def islands(source: DeformableMesh, kept: Integers) -> Bools:
+    """Vertices (n,) of small parts, connected by the edges that are kept (e, 2), beside one that is most of it."""
+    left, right = kept.T
+    labels = components(left, right, source.mesh.n_vertices)
+    share = np.bincount(labels, source.areas)
+    small = (share > 0) & (share < MOST) & (share.max() > LEAST_REST)
+    return np.asarray(small[labels] & (source.areas > 0), dtype=np.bool_)
+
+
+def _connected(inside: Bools, ends: Integers) -> list[Integers]:
+    left, right = ends[inside[ends].all(axis=1)].T
+    labels = components(left, right, len(inside))
+    return [np.flatnonzero(inside & (labels == label)) for label in np.unique(labels[inside])]
+
+
+def _among_near(
+    source: DeformableMesh,
+    target: DeformableMesh,
+    island: Integers,
+    rim: Integers,
+    rows: Floats,
+    images: Integers,
+) -> Integers:
+    """Of the vertices of an island, at `rows` (k, 6), the closest on the target (k,) that are as near to the rim."""
+    reach = STRETCH * distances_to_nearest(source.mesh, rim)[island] + ROOM
+    away = distances_to_nearest(target.mesh, np.unique(images), float(reach.max()))
+    near = np.flatnonzero((away <= reach.max()) & (target.areas > 0))
+    gaps = ((rows[:, None] - target.features[near]) ** 2).sum(axis=2)
+    return near[np.where(away[near] <= reach[:, None], gaps, np.inf).argmin(axis=1)]

@@ -1,0 +1,85 @@
+"""What a map has put on a sheet that the surface only touches is taken back to its own."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from geodesics import Mesh, SurfacePoints
+from geodesics.topology.edges import edges
+from gmds.registration.contacts import JUMP, MOST, islands, jumps, taken_back
+from gmds.registration.deformable import DeformableMesh
+from gmds.registration.register import Registered, assessed
+from gmds.registration.settings import FULL
+
+GAP = 0.02  # between the sheets
+LONG, WIDE = 61, 21
+
+
+def folded() -> DeformableMesh:
+    """A strip bent back over itself, so that both halves nearly touch, of unit area."""
+    u, v = (axis.ravel() for axis in np.meshgrid(np.linspace(0, 2, LONG), np.linspace(0, 0.5, WIDE), indexing="ij"))
+    out = u <= 1
+    places = np.stack([np.where(out, u, 2 - u), v, np.where(out, 0.0, GAP)], axis=1)
+    corner = (np.arange(LONG - 1)[:, None] * WIDE + np.arange(WIDE - 1)).ravel()
+    faces = np.stack([corner, corner + WIDE, corner + WIDE + 1, corner, corner + WIDE + 1, corner + 1], axis=1)
+    mesh = Mesh(places, faces.reshape(-1, 3))
+    return DeformableMesh(mesh, np.arange(mesh.n_vertices), np.zeros(mesh.n_vertices))
+
+
+def sent_over(surface: DeformableMesh, patch: np.ndarray) -> Registered:
+    """The surface on itself, as it is, but for the vertices of a patch, which lie on the other sheet."""
+    places = surface.mesh.vertices
+    images = np.arange(len(places))
+    images[patch] = (LONG - 1 - patch // WIDE) * WIDE + patch % WIDE
+    one = assessed(surface, surface, places, FULL)
+    return replace(one, points=SurfacePoints.at_vertices(surface.mesh, images))
+
+
+@pytest.fixture(scope="module")
+def surface() -> DeformableMesh:
+    return folded()
+
+
+def test_a_patch_on_the_other_sheet_is_taken_back(surface: DeformableMesh) -> None:
+    places = surface.mesh.vertices
+    patch = np.flatnonzero((np.abs(places[:, 0] - 0.3) < 0.1) & (places[:, 1] < 0.2) & (places[:, 2] == 0))
+    one = sent_over(surface, patch)
+    assert (np.abs(one.points.positions - places)[patch, 2] == GAP).all()
+    back = taken_back(surface, surface, one)
+    np.testing.assert_allclose(back.positions, places, atol=1e-12)
+
+
+def test_what_does_not_jump_stays_as_it_is(surface: DeformableMesh) -> None:
+    one = sent_over(surface, np.empty(0, dtype=np.int64))
+    assert taken_back(surface, surface, one) is one.points
+
+
+def test_half_of_a_surface_is_no_island(surface: DeformableMesh) -> None:
+    """Where as much is on one sheet as on the other nobody knows which is right: nothing is moved."""
+    places = surface.mesh.vertices
+    half = np.flatnonzero((places[:, 1] < 0.24) & (places[:, 2] == 0) & (places[:, 0] < 0.9))
+    assert surface.areas[half].sum() > MOST
+    one = sent_over(surface, half)
+    assert taken_back(surface, surface, one) is one.points
+
+
+def test_pairs_jump_where_they_are_far_along_the_surface(surface: DeformableMesh) -> None:
+    x, z = surface.mesh.vertices[:, 0], surface.mesh.vertices[:, 2]
+    row = np.flatnonzero((z == 0) & (surface.mesh.vertices[:, 1] == 0))
+    above = np.flatnonzero((z == GAP) & (surface.mesh.vertices[:, 1] == 0))
+    above = above[[int(np.abs(x[above] - x[i]).argmin()) for i in row]]
+    far = 2 * (1 - x[row])
+    told = jumps(surface, np.stack([row, above], axis=1))
+    assert not told[far < 0.8 * JUMP].any()
+    assert told[far > 1.5 * JUMP].all()
+
+
+def test_islands_are_small_beside_one_that_is_most_of_the_surface(surface: DeformableMesh) -> None:
+    ends = edges(surface.mesh).ends
+    corner = surface.mesh.vertices[:, 0] + surface.mesh.vertices[:, 1] + 100 * surface.mesh.vertices[:, 2] < 0.2
+    kept = ends[corner[ends[:, 0]] == corner[ends[:, 1]]]
+    np.testing.assert_array_equal(islands(surface, kept), corner)
+    assert not islands(surface, ends).any()
