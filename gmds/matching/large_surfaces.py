@@ -16,6 +16,7 @@ from geodesics.threads import side_by_side, threads
 from gmds.correspondence import Correspondence
 from gmds.landmarks.constraints import LandmarkConstraints, WeightedCorners
 from gmds.maps.point_map import Candidate
+from gmds.registration.contacts import on_the_sheets_of
 from gmds.registration.deformable import DeformableMesh
 from gmds.registration.register import settled
 from gmds.registration.settings import AFFINE_AGAIN
@@ -74,8 +75,8 @@ class CoarseCopies:
         """A map between the copies as one between the whole surfaces.
 
         A vertex goes with the point of the copy that it is closest to, and from there to the closest point, in position
-        and normal, of the whole target. Candidates go the same way. Where the copy was laid in space, all of the source
-        is laid there once more, if it has at most `MOST_LAID` vertices.
+        and normal, of the whole target, on the sheet of it that the copy is sent to. Candidates go the same way. Where
+        the copy was laid in space, all of the source is laid there once more, if it has at most `MOST_LAID` vertices.
         """
         face, weights, _ = closest_on_triangles(self.source.mesh.vertices, self._places[0], answer.source.faces)
         corners = answer.source.faces[face]
@@ -113,6 +114,10 @@ class CoarseCopies:
         here, there, y = self._moved(points, corners, weights)
         features = here.moved_features(y)
         near = there.usable[there.tree.query(features, workers=threads())[1]]
+        if self.copies[1] is not self.target:
+            copy = _whole_of(Mesh(self._places[1], points.mesh.faces))
+            images = points.nearest_vertices()[np.take_along_axis(corners, weights.argmax(axis=1)[:, None], 1)[:, 0]]
+            near = on_the_sheets_of(images, copy, near, there)
         return on_original(self.target, there.closest(features, there.features, near))
 
     def _laid(self, points: SurfacePoints, corners: Integers, weights: Floats) -> SurfacePoints:

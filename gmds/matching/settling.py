@@ -19,6 +19,7 @@ from gmds.matching.effort import keeps_sizes
 from gmds.matching.large_surfaces import coarse
 from gmds.matching.pair import SurfacePair
 from gmds.matching.polishing import there_and_back, with_eigenfunctions
+from gmds.registration.contacts import taken_back
 from gmds.registration.deformable import DeformableMesh
 from gmds.surface.measured import Surface
 
@@ -49,7 +50,7 @@ def settled_places(source: Surface, target: Surface, common: CommonPoints) -> Fl
         deformation = there_and_back(pair, deformation, settings, lambda share: None)
     faces = ours.mesh.faces
     face, weights, _ = closest_on_triangles(here, ours.mesh.vertices, faces)
-    images = combination(weights, deformation.points.positions[faces[face]])
+    images = combination(weights, taken_back(*pair.full, deformation).positions[faces[face]])
     return SurfacePoints.closest(target.original, _Laid(target, theirs).outward(images)).positions
 
 

@@ -13,6 +13,7 @@ import scipy.sparse as sp
 from geodesics import SurfacePoints
 from geodesics.arrays import Bools, Floats, Integers
 from geodesics.caching import memoized
+from geodesics.threads import threads
 from geodesics.topology.edge_paths import distances_to_nearest, edge_distances
 from geodesics.topology.edges import components, edges
 from gmds.registration.deformable import DeformableMesh
@@ -27,6 +28,7 @@ EDGES = 5
 MOST = 0.1
 LEAST_REST = 0.5
 RINGS = 3  # around an image, where nothing is far: a bound, so that few paths are looked for
+BLOCK = 256  # starts of paths at a time: a bound, so that memory is
 # How much longer a path on the target may be than that on the source, and root areas that come on top; set by hand.
 STRETCH = 1.5
 ROOM = 0.03
@@ -57,16 +59,35 @@ def taken_back(source: DeformableMesh, target: DeformableMesh, one: Registered) 
     return SurfacePoints(one.points.mesh, face, weights)
 
 
+def on_the_sheets_of(images: Integers, coarse: DeformableMesh, found: Integers, fine: DeformableMesh) -> Integers:
+    """Vertices (n,) `found` on a fine copy of a surface, near the `images` (n,) on a coarse one and on the same sheet.
+
+    Those on another sheet are replaced by what is closest, in position and normal, to the image itself.
+    """
+    asked, row = np.unique(found, return_inverse=True)
+    label = coarse.usable[coarse.tree.query(fine.features[asked], workers=threads())[1]]
+    pairs, of_pair = np.unique(np.stack([images, label[row]], axis=1), axis=0, return_inverse=True)
+    lost = jumps(coarse, pairs)[of_pair.ravel()]
+    if not lost.any():
+        return found
+    goal = fine.usable[fine.tree.query(coarse.features[images[lost]])[1]]
+    result = found.copy()
+    result[lost] = goal
+    return result
+
+
 def jumps(target: DeformableMesh, images: Integers) -> Bools:
     """Whether vertices of the target, in pairs (e, 2), are far apart along it."""
     far = np.flatnonzero(~np.asarray(_rings(target)[images[:, 0], images[:, 1]], dtype=np.bool_).ravel())
     result = np.zeros(len(images), dtype=np.bool_)
     if len(far):
         ends = edges(target.mesh).ends
-        length = np.linalg.norm(np.subtract(*target.mesh.vertices[ends.T]), axis=1).mean()
+        length = float(np.linalg.norm(np.subtract(*target.mesh.vertices[ends.T]), axis=1).mean())
         begin, row = np.unique(images[far, 0], return_inverse=True)
-        distance = edge_distances(target.mesh, begin, max(JUMP, EDGES * float(length)))
-        result[far] = np.isinf(distance[row, images[far, 1]])
+        for start in range(0, len(begin), BLOCK):
+            distance = edge_distances(target.mesh, begin[start : start + BLOCK], max(JUMP, EDGES * length))
+            these = (row >= start) & (row < start + BLOCK)
+            result[far[these]] = np.isinf(distance[row[these] - start, images[far[these], 1]])
     return result
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from geodesics import Mesh, SurfacePoints
 from geodesics.topology.edges import edges
-from gmds.registration.contacts import JUMP, MOST, islands, jumps, taken_back
+from gmds.registration.contacts import JUMP, MOST, islands, jumps, on_the_sheets_of, taken_back
 from gmds.registration.deformable import DeformableMesh
 from gmds.registration.register import Registered, assessed
 from gmds.registration.settings import FULL
@@ -83,3 +83,15 @@ def test_islands_are_small_beside_one_that_is_most_of_the_surface(surface: Defor
     kept = ends[corner[ends[:, 0]] == corner[ends[:, 1]]]
     np.testing.assert_array_equal(islands(surface, kept), corner)
     assert not islands(surface, ends).any()
+
+
+def test_a_fine_copy_is_sent_to_the_sheets_of_the_coarse_one(surface: DeformableMesh) -> None:
+    """Vertices found on the other sheet go to what lies where the image of the coarse copy does."""
+    every = np.arange(surface.mesh.n_vertices)
+    places = surface.mesh.vertices
+    patch = np.flatnonzero((np.abs(places[:, 0] - 0.3) < 0.1) & (places[:, 2] == 0))
+    found = every.copy()
+    found[patch] = (LONG - 1 - patch // WIDE) * WIDE + patch % WIDE
+    fine = replace(surface)
+    np.testing.assert_array_equal(on_the_sheets_of(every, surface, found, fine), every)
+    assert on_the_sheets_of(every, surface, every, fine) is every
