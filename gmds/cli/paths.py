@@ -11,6 +11,7 @@ import click
 
 from gmds.cli.output import note
 
+ATLAS = "atlas.npz"  # as `gmds atlas` names it
 COMPANIONS = {".obj": (".mtl", ".png"), ".vert": (".tri",), ".tri": (".vert",)}  # endings of files of one mesh
 
 
@@ -47,6 +48,18 @@ class OutputFolder(click.Path):
         if why := _not_writable(there / "any"):
             self.fail(f"nothing can be written to the folder {str(there)!r}: {why}", param, ctx)
         return path
+
+
+class AtlasFile(click.Path):
+    """The file of an atlas, or the folder that `gmds atlas` wrote it to."""
+
+    def __init__(self) -> None:
+        super().__init__(path_type=Path)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The path of the file; of a folder the atlas.npz in it, where there is one."""
+        path = Path(os.fsdecode(super().convert(value, param, ctx)))
+        return path / ATLAS if (path / ATLAS).is_file() else path
 
 
 class EndingIn(OutputFile):

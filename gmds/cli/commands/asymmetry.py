@@ -9,7 +9,7 @@ import click
 
 from gmds.cli.group import Command
 from gmds.cli.output import emit, json_option, note
-from gmds.cli.paths import OutputFolder, refuse_same_folder
+from gmds.cli.paths import AtlasFile, OutputFolder, refuse_same_folder
 
 if TYPE_CHECKING:
     from geodesics.arrays import Integers
@@ -19,14 +19,14 @@ PATH = click.Path(path_type=Path)
 
 
 @click.command(cls=Command, short_help="Measure left against right on the specimens of an atlas.")
-@click.argument("atlas_file", metavar="ATLAS", type=PATH)
+@click.argument("atlas_file", metavar="ATLAS", type=AtlasFile())
 @click.option("-o", "--output", default="asymmetry", show_default=True, type=OutputFolder(), help="Folder.")
 @click.option("--sides", type=PATH, help="A table that pairs left and right specimens; without it each has both.")
 @click.option("--individual", default="individual", show_default=True, help="Column that says which belong together.")
 @click.option("--side", default="side", show_default=True, help="Column that says which is which.")
 @json_option
 def command(atlas_file: Path, output: Path, sides: Path | None, individual: str, side: str, as_json: bool) -> None:
-    """Measure how far the specimens of ATLAS, an atlas.npz, are from symmetric: each point, and all together.
+    """Measure how far specimens of ATLAS (atlas.npz or its folder) are from symmetric: each point, and all together.
 
     \b
       gmds asymmetry atlas/atlas.npz -o asymmetry

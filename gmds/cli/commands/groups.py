@@ -10,13 +10,13 @@ import click
 
 from gmds.cli.group import Command
 from gmds.cli.output import emit, json_option, note, seed_option
-from gmds.cli.paths import OutputFolder, refuse_same_folder
+from gmds.cli.paths import AtlasFile, OutputFolder, refuse_same_folder
 
 PATH = click.Path(path_type=Path)
 
 
 @click.command(cls=Command, short_help="Test whether specimens differ between groups or with a covariate.")
-@click.argument("atlas_file", metavar="ATLAS", type=PATH)
+@click.argument("atlas_file", metavar="ATLAS", type=AtlasFile())
 @click.option("--table", type=PATH, help="A .csv with a row a specimen; its titles name groups and covariates.")
 @click.option("--column", default="group", show_default=True, help="Which column; `size` is the centroid size.")
 @click.option("-o", "--output", default="groups", show_default=True, type=OutputFolder(), help="Folder.")
@@ -26,7 +26,7 @@ PATH = click.Path(path_type=Path)
 def command(
     atlas_file: Path, table: Path | None, column: str, output: Path, permutations: int, seed: int, as_json: bool
 ) -> None:
-    """Test whether shape and growth in ATLAS, an atlas.npz, differ between groups, or go with a covariate.
+    """Test whether shape and growth in ATLAS (atlas.npz or its folder) differ between groups, or go with a covariate.
 
     \b
       gmds groups atlas/atlas.npz --column size --permutations 99 -o allometry

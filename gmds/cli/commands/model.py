@@ -9,23 +9,21 @@ import click
 
 from gmds.cli.group import Command
 from gmds.cli.output import emit, json_option
-from gmds.cli.paths import OutputFolder, refuse_same_folder
+from gmds.cli.paths import AtlasFile, OutputFolder, refuse_same_folder
 
 if TYPE_CHECKING:
     from gmds.morphometrics.shape_model import ShapeModel
 
-PATH = click.Path(path_type=Path)
-
 
 @click.command(cls=Command, short_help="Find what varies in an atlas: a shape model.")
-@click.argument("atlas_file", metavar="ATLAS", type=PATH)
+@click.argument("atlas_file", metavar="ATLAS", type=AtlasFile())
 @click.option("-o", "--output", default="model", show_default=True, type=OutputFolder(), help="Folder.")
 @click.option("--components", type=click.IntRange(min=1), help="How many are kept.  [default: all]")
 @click.option("--keep-size", is_flag=True, help="Leave specimens as large as they are.")
 @click.option("--shown", default=3, show_default=True, type=click.IntRange(min=1), help="Components that are drawn.")
 @json_option
 def command(atlas_file: Path, output: Path, components: int | None, keep_size: bool, shown: int, as_json: bool) -> None:
-    """Find the mean shape and the principal components of the specimens in ATLAS, an atlas.npz of `gmds atlas`.
+    """Find the mean shape and the principal components of the specimens in ATLAS (atlas.npz or its folder).
 
     \b
       gmds atlas meshes -o atlas --workers 1

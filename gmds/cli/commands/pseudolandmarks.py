@@ -10,16 +10,14 @@ import click
 from gmds.cli.commands.asymmetry import warn_if_poor
 from gmds.cli.group import Command
 from gmds.cli.output import emit, json_option
-from gmds.cli.paths import EndingIn
+from gmds.cli.paths import AtlasFile, EndingIn
 
 if TYPE_CHECKING:
     from gmds.morphometrics.sliding import Criterion
 
-PATH = click.Path(path_type=Path)
-
 
 @click.command(cls=Command, short_help="Spread points evenly over all specimens of an atlas.")
-@click.argument("atlas_file", metavar="ATLAS", type=PATH)
+@click.argument("atlas_file", metavar="ATLAS", type=AtlasFile())
 @click.option("-o", "--output", required=True, type=EndingIn(".csv", ".tps"), help=".csv, .wide.csv or .tps.")
 @click.option("--count", default=100, show_default=True, type=click.IntRange(min=4), help="How many points.")
 @click.option("--symmetric", is_flag=True, help="In pairs of left and right, and on the midline.")
@@ -28,7 +26,7 @@ PATH = click.Path(path_type=Path)
 def command(
     atlas_file: Path, output: Path, count: int, symmetric: bool, slide: Criterion | None, as_json: bool
 ) -> None:
-    """Spread points evenly over the mean shape of ATLAS, an atlas.npz, and write where they are on every specimen.
+    """Spread points evenly over the mean shape of ATLAS (atlas.npz or its folder), and write them for every specimen.
 
     \b
       gmds pseudolandmarks atlas/atlas.npz --count 20 -o points.csv

@@ -152,6 +152,10 @@ def test_where_nothing_can_be_written_is_found_out_first(
     assert refused.exit_code == 2 and "Read-only file system" in refused.stderr and not (tmp_path / "new").exists()
 
 
-def test_the_folder_of_an_atlas_is_not_its_file(client: Any, twins: Path, tmp_path: Path) -> None:
-    refused = run(client, "model", twins / "atlas", "-o", tmp_path / "model")
+def test_the_folder_of_an_atlas_stands_for_its_file(client: Any, twins: Path, tmp_path: Path) -> None:
+    for atlas in (twins / "atlas", twins / "atlas" / "atlas.npz"):
+        told = run(client, "pseudolandmarks", atlas, "--count", "5", "-o", tmp_path / "points.csv")
+        assert told.exit_code == 0 and (tmp_path / "points.csv").is_file(), told.output
+        (tmp_path / "points.csv").unlink()
+    refused = run(client, "model", twins / "meshes", "-o", tmp_path / "model")
     assert refused.exit_code == 1 and "E234" in refused.stderr and "atlas.npz" in refused.stderr
