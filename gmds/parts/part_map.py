@@ -18,6 +18,11 @@ ONTO_WHOLE = RegistrationSettings((*TO_IMAGES, *COARSE), AsRigidAsPossible, part
 """Of a simplified part onto a simplified whole: what either lacks does not pull."""
 IN_PLACE = ONTO_WHOLE.with_stages((Stage(1e-2, 6), Stage(3e-3, 6)))
 """From where it nearly fits."""
+# Closest points converge the slower the farther a surface has to slide along another (Rusinkiewicz and Levoy 2001), and
+# a part that has not slid far enough stays too small, by a tenth. 200 steps at 0.1, and 100 at each, were worse on
+# development scans, 600 no better (benchmarks/results/notes.md, "Parts").
+CONVERGED = ONTO_WHOLE.with_stages((Stage(3e-2, 200), *COARSE))
+"""From where it is right but for how far it has slid."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,7 @@ from gmds.parts.alignments import Judged, alignments
 from gmds.parts.assignments import consistent_assignments
 from gmds.parts.extremities import Anchors, all_extremities, inner_extremities, with_interior
 from gmds.parts.local_stress import LocalStress
-from gmds.parts.part_map import IN_PLACE, ONTO_WHOLE, PartMap
+from gmds.parts.part_map import CONVERGED, IN_PLACE, ONTO_WHOLE, PartMap
 from gmds.parts.recombination import recombined
 from gmds.parts.trilateration import Trilateration
 from gmds.registration.deformable import DeformableMesh
@@ -27,6 +27,7 @@ DOUBTFUL = -1.35  # a likelihood above which points inside are assigned as well:
 INTERIOR = (3, 30)  # of them, on the part and on the whole
 IMPROVED = 8  # of these, apart from each other, that are placed again by distances
 ROUNDS = 3  # of placing and deforming
+SLIDING = 3  # maps, the likeliest, that slide until they converge: as many as are followed further
 APART = 0.06  # root mean square distance, in root areas of the whole, between two maps that are two
 BELIEF_TIME = 3e-3  # heat time, in units of the area of the part, over which strain is averaged
 
@@ -43,7 +44,8 @@ def part_maps(
     is placed by its distances from them (`Trilateration`), and the simplified part is deformed as that says; or it is
     deformed from where it fits as it is (`alignments`). A part of which all extremities are at its boundary, as of a
     scan from one side, has those. Of the likeliest, vertices are placed anew by distances from those that fit well
-    (`LocalStress`), a few times, and of these the likeliest is put together anew (`recombined`).
+    (`LocalStress`), a few times, and of these the likeliest is put together anew (`recombined`). In the end the
+    likeliest slide until they converge (`slid`).
     """
     ours, theirs = side_by_side(inner_extremities, (source, target))
     begun = _aligned(source, target, meshes) + _from_anchors(source, target, meshes, ours, theirs, None)
@@ -95,10 +97,18 @@ def _improved(meshes: tuple[DeformableMesh, DeformableMesh], begun: Sequence[Par
 
 
 def _put_together(meshes: tuple[DeformableMesh, DeformableMesh], found: Sequence[PartMap]) -> list[PartMap]:
-    """The maps, and what the likeliest became with regions of the others, the likeliest first."""
+    """The maps, and what the likeliest became with regions of the others; then the likeliest slide. Likeliest first."""
     more = recombined(*meshes, found) if found else []
     more += [improved(meshes, one) for one in more[-1:]]
-    return distinct([*more, *found], meshes[0].areas, APART)
+    apart = distinct([*more, *found], meshes[0].areas, APART)
+    likely = side_by_side(functools.partial(slid, meshes), apart[:SLIDING])
+    return distinct([*likely, *apart[SLIDING:]], meshes[0].areas, APART)
+
+
+def slid(meshes: tuple[DeformableMesh, DeformableMesh], start: PartMap) -> PartMap:
+    """The likelier of a map and of what it converges to, sliding as one stiff piece before details are sought anew."""
+    trial = PartMap.of(meshes[0], settled(*meshes, start.registered.y, CONVERGED))
+    return min(start, trial, key=lambda one: one.neg_log_likelihood)
 
 
 def improved(meshes: tuple[DeformableMesh, DeformableMesh], start: PartMap) -> PartMap:
