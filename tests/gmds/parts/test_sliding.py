@@ -1,4 +1,4 @@
-"""What is seen of a person from one side, on that person in another pose, slides until it covers as much as it should."""
+"""What is seen of a person from one side, on that person in another pose, slides until it covers what it should."""
 
 from __future__ import annotations
 
