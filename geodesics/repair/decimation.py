@@ -10,6 +10,8 @@
 
 from __future__ import annotations
 
+import threading
+
 import numpy as np
 
 from geodesics.arrays import Floats, Integers
@@ -28,6 +30,7 @@ from geodesics.topology.edges import edges, proper_faces
 # meshes of fewer than 40,000 vertices are copied as they always were.
 BEGUN = 4
 FEWEST_BEGUN = 40_000
+_one_at_a_time = threading.Lock()  # fast_simplification keeps its mesh in variables that all threads share
 
 
 def decimate(mesh: Mesh, n_faces: int) -> Repaired:
@@ -127,7 +130,8 @@ def _begun(v: Floats, faces: Integers, n_faces: int) -> tuple[Floats, Integers]:
         return v, faces
     center, size = v.mean(axis=0), float(np.ptp(v, axis=0).max())
     unit = np.ascontiguousarray((v - center) / size)  # its thresholds are lengths
-    places, few = fast_simplification.simplify(unit, faces.astype(np.int32), target_count=enough)
+    with _one_at_a_time:
+        places, few = fast_simplification.simplify(unit, faces.astype(np.int32), target_count=enough)
     used, few = np.unique(few, return_inverse=True)
     few = few.reshape(-1, 3).astype(np.int64)
     if not len(few) or not _can_be_collapsed(few):

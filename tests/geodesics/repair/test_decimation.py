@@ -12,6 +12,7 @@ from geodesics import Mesh
 from geodesics.closest import closest_on_triangles
 from geodesics.repair.decimation import FEWEST_BEGUN, decimated
 from geodesics.repair.splitting import several_fans
+from geodesics.threads import side_by_side
 from geodesics.topology.edges import edges
 
 
@@ -80,3 +81,14 @@ def test_a_regular_grid_does_not_fold() -> None:
     sides = np.sign(np.einsum("ij,ij->i", normals, outwards))
     assert abs(sides.sum()) == coarse.n_faces  # all face one way
     assert coarse.area == pytest.approx(4 * np.pi**2 * 2, rel=5e-3)
+
+
+def test_two_large_meshes_side_by_side_are_copied_as_one_after_the_other(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The library for quadrics holds one mesh at a time: of two threads the one was handed the mesh of the other."""
+    monkeypatch.setenv("GMDS_THREADS", "2")
+    two = [large(), Mesh(large().vertices * [1, 2, 3], large().faces)]
+    for one, alone in zip(side_by_side(lambda mesh: decimated(mesh, 10_000), two), two, strict=True):
+        expected = decimated(alone, 10_000)
+        assert one is not None and expected is not None
+        np.testing.assert_array_equal(one.faces, expected.faces)
+        np.testing.assert_array_equal(one.vertices, expected.vertices)
