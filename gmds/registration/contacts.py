@@ -29,6 +29,7 @@ MOST = 0.1
 LEAST_REST = 0.5
 RINGS = 3  # around an image, where nothing is far: a bound, so that few paths are looked for
 BLOCK = 256  # starts of paths at a time: a bound, so that memory is
+PAIRS = 2_000_000  # of an island and what is near its rim, at a time: 100 MB; a bound as well
 # How much longer a path on the target may be than that on the source, and root areas that come on top; set by hand.
 STRETCH = 1.5
 ROOM = 0.03
@@ -128,5 +129,9 @@ def _among_near(
     reach = STRETCH * distances_to_nearest(source.mesh, rim)[island] + ROOM
     away = distances_to_nearest(target.mesh, np.unique(images), float(reach.max()))
     near = np.flatnonzero(away <= reach.max())
-    gaps = ((rows[:, None] - target.features[near]) ** 2).sum(axis=2)
-    return near[np.where(away[near] <= reach[:, None], gaps, np.inf).argmin(axis=1)]
+    found, step = np.empty(len(island), dtype=np.int64), max(1, PAIRS // len(near))
+    for start in range(0, len(island), step):
+        these = slice(start, start + step)
+        gaps = ((rows[these, None] - target.features[near]) ** 2).sum(axis=2)
+        found[these] = near[np.where(away[near] <= reach[these, None], gaps, np.inf).argmin(axis=1)]
+    return found

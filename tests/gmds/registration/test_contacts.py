@@ -52,6 +52,18 @@ def test_a_patch_on_the_other_sheet_is_taken_back(surface: DeformableMesh) -> No
     np.testing.assert_allclose(back.positions, places, atol=1e-12)
 
 
+def test_an_island_is_taken_back_alike_in_pieces(surface: DeformableMesh, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Islands of many vertices, near many of the target, are gone through a few at a time."""
+    places = surface.mesh.vertices
+    patch = np.flatnonzero((np.abs(places[:, 0] - 0.3) < 0.1) & (places[:, 1] < 0.2) & (places[:, 2] == 0))
+    one = sent_over(surface, patch)
+    whole = taken_back(surface, surface, one)
+    monkeypatch.setattr("gmds.registration.contacts.PAIRS", 1)
+    pieces = taken_back(surface, surface, one)
+    np.testing.assert_array_equal(pieces.face, whole.face)
+    np.testing.assert_array_equal(pieces.barycentric, whole.barycentric)
+
+
 def test_what_does_not_jump_stays_as_it_is(surface: DeformableMesh) -> None:
     one = sent_over(surface, np.empty(0, dtype=np.int64))
     assert taken_back(surface, surface, one) is one.points
