@@ -18,6 +18,7 @@ from scipy.spatial.transform import Rotation
 
 from geodesics import GeodesicDistance, SurfacePoints, embedded, farthest_point_sampling
 from geodesics.arrays import Bools, Floats, Integers
+from geodesics.topology.components import largest_component
 from gmds._kernels.alignments import alignment_costs, refined_alignments
 from gmds._kernels.rotations import nearest_rotations
 from gmds.parts.alignments import MISSING, STEPS, TURN, Similarities
@@ -73,7 +74,8 @@ def laid_anew(
 ) -> list[Placement]:
     """Regions with places that fit better than where the map to y (n, 3) sends them, the best first."""
     distance = GeodesicDistance(embedded(source.mesh))
-    centres = farthest_point_sampling(distance, min(CENTRES, len(source.usable)), int(source.usable[0]))
+    body = source.usable[np.isin(source.usable, source.mesh.faces[largest_component(source.mesh)])]
+    centres = farthest_point_sampling(distance, min(CENTRES, len(body)), int(body[0]))
     images = target.usable[cKDTree(target.mesh.vertices[target.usable]).query(y[centres])[1]]
     found: list[Placement] = []
     for here, beyond in zip(_distances(source, centres), _distances(target, images), strict=True):

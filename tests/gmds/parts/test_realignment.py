@@ -7,11 +7,13 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import gmds
+from geodesics import Mesh
 from geodesics.arrays import Bools, Floats
 from gmds.matching.pair import SurfacePair
 from gmds.matching.proposals import Proposal
 from gmds.matching.recombination import recombined
 from gmds.parts.realignment import SIZES, laid_anew, realigned
+from gmds.registration.deformable import DeformableMesh
 from gmds.shapes import quadruped, truth
 from gmds.surface.measured import measure
 
@@ -91,3 +93,14 @@ def test_an_animal_with_small_ears_keeps_its_nose() -> None:
     answer = gmds.match(source, target)
     errors = np.linalg.norm(answer.points.positions - truth(source, target).positions, axis=1) / np.sqrt(target.area)
     assert (errors > 0.1).mean() < 0.01
+
+
+def test_a_loose_triangle_that_comes_first_does_no_harm(pair: SurfacePair, right: Floats) -> None:
+    """A mesh that was cut apart where it was no manifold may begin with one."""
+    whole, target = pair.simplified
+    loose = whole.mesh.vertices[whole.mesh.faces[0]] * 1.01
+    faces = np.vstack([[[0, 1, 2]], whole.mesh.faces + 3])
+    mesh = Mesh(np.vstack([loose, whole.mesh.vertices]), faces)
+    source = DeformableMesh(mesh, np.arange(mesh.n_vertices), np.zeros(mesh.n_vertices))
+    y = np.vstack([right[whole.mesh.faces[0]], right])
+    assert len(realigned(source, target, y)) == len(realigned(whole, target, right))
