@@ -175,7 +175,7 @@ class Atlas:
     def load(cls, path: str | os.PathLike[str]) -> Atlas:
         """Read what `save` wrote. Raises `AtlasFileError` (E234), `OSError`."""
         if Path(path).is_dir():
-            raise AtlasFileError(f"{path} is a folder; name the file atlas.npz in it")
+            raise AtlasFileError(f"{path} is a folder; name the atlas.npz in it that `gmds atlas` wrote")
         try:
             read = read_npz(Path(path))
             words = {key: tuple(str(one) for one in read[key]) for key in ("names", "status", "templates")}

@@ -65,11 +65,12 @@ class Wanted:
 
 @dataclass(frozen=True, eq=False)
 class Attempt:
-    """The likely maps to an `image` of the target, as proposed, none of them embedded."""
+    """The likely maps to an `image` of the target, none of them embedded; those `proposed` are as first made."""
 
     image: Image
     pair: SurfacePair
     maps: list[Proposal]
+    proposed: list[Proposal]
     given: GivenDistances | None
     wanted: Wanted
 
@@ -81,7 +82,8 @@ class Attempt:
         found = proposals(pair, rounds, starts_of(pair), lambda share: wanted.report("proposing", 0.2 + 0.3 * share))
         maps = found.maps if given is not None or found.isometric else improved(pair, found)
         pair = replace(pair, isometric=found.isometric)
-        return cls(image, pair, likely_maps(maps, pair.simplified[0].areas), given, wanted)
+        likely, proposed = (likely_maps(some, pair.simplified[0].areas) for some in (maps, found.maps))
+        return cls(image, pair, likely, proposed, given, wanted)
 
     @cached_property
     def of_parts(self) -> list[PartAnswer]:
@@ -99,8 +101,11 @@ class Attempt:
 
     @property
     def unexplained(self) -> float:
-        """Of the map that explains most of it, the log of the parts of curvature that are unexplained, both ways."""
-        of_maps = [one.residuals for one in self.maps]
+        """Of the map that explains most of it, the log of the parts of curvature that are unexplained, both ways.
+
+        Of maps as they are proposed: regions laid anew fit each by itself, and to the mirror image nearly as well.
+        """
+        of_maps = [one.residuals for one in self.proposed]
         of_parts = [one.candidates[0].candidate.evidence.both_simplified for one in self.of_parts]
         both = [(one.curvature, one.curvature_back) for ways in (*of_maps, *of_parts) for one in ways]
         values = np.reshape(both, (-1, 4))

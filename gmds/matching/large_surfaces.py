@@ -16,7 +16,7 @@ from geodesics.threads import side_by_side, threads
 from gmds.correspondence import Correspondence
 from gmds.landmarks.constraints import LandmarkConstraints, WeightedCorners
 from gmds.maps.point_map import Candidate
-from gmds.registration.contacts import on_the_sheets_of
+from gmds.registration.contacts import on_the_sheets_of, taken_back
 from gmds.registration.deformable import DeformableMesh
 from gmds.registration.register import settled
 from gmds.registration.settings import AFFINE_AGAIN
@@ -74,11 +74,13 @@ class CoarseCopies:
     def prolonged(self, answer: Correspondence) -> Correspondence:
         """A map between the copies as one between the whole surfaces.
 
-        A vertex goes with the point of the copy that it is closest to, and from there to the closest point, in position
-        and normal, of the whole target, on the sheet of it that the copy is sent to. Candidates go the same way. Where
-        the copy was laid in space, all of the source is laid there once more, if it has at most `MOST_LAID` vertices.
+        A vertex goes with the closest point of the copy on the sheet that it is on, and from there to the closest
+        point, in position and normal, of the whole target, on the sheet of it that the copy is sent to. Candidates go
+        the same way. Where the copy was laid in space, all of the source is laid there once more, if it has at most
+        `MOST_LAID` vertices.
         """
-        face, weights, _ = closest_on_triangles(self.source.mesh.vertices, self._places[0], answer.source.faces)
+        on_copy = self._on_copy(answer.source.faces)
+        face, weights = on_copy.face, on_copy.barycentric
         corners = answer.source.faces[face]
         share = combination(weights, answer.valid[corners].astype(np.float64))
         laid = answer.meta.get("evidence", {}).get("laid_in_space", False) and len(face) <= MOST_LAID
@@ -96,6 +98,12 @@ class CoarseCopies:
             candidates=tuple(self._candidate(one, corners, weights) for one in answer.candidates),
             meta={**answer.meta, "solved_vertices": [copy.mesh.n_vertices for copy in self.copies]},
         )
+
+    def _on_copy(self, faces: Integers) -> SurfacePoints:
+        """Where the vertices of the source are on its copy with these `faces` (m, 3)."""
+        places, copy = self.source.mesh.vertices, Mesh(self._places[0], faces)
+        points = SurfacePoints(copy, *closest_on_triangles(places, copy.vertices, faces)[:2])
+        return taken_back(_whole(self.source), _whole_of(copy), places, points)
 
     @property
     def _places(self) -> tuple[Floats, Floats]:

@@ -51,7 +51,7 @@ def _polished(
     report(0.3)
     deformation, settings = with_eigenfunctions(pair, deformation)
     deformation = there_and_back(pair, deformation, settings, report)
-    points = taken_back(*pair.full, deformation)
+    points = taken_back(*pair.full, deformation.y, deformation.points)
     weighed = evidence(pair, candidate.views, points, candidate.evidence.both_simplified, deformation.residuals)
     return replace(candidate, points=points, deformation=deformation, evidence=weighed, other=None)
 

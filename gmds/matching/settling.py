@@ -50,7 +50,7 @@ def settled_places(source: Surface, target: Surface, common: CommonPoints) -> Fl
         deformation = there_and_back(pair, deformation, settings, lambda share: None)
     faces = ours.mesh.faces
     face, weights, _ = closest_on_triangles(here, ours.mesh.vertices, faces)
-    images = combination(weights, taken_back(*pair.full, deformation).positions[faces[face]])
+    images = combination(weights, taken_back(*pair.full, deformation.y, deformation.points).positions[faces[face]])
     return SurfacePoints.closest(target.original, _Laid(target, theirs).outward(images)).positions
 
 

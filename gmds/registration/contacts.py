@@ -17,7 +17,6 @@ from geodesics.threads import threads
 from geodesics.topology.edge_paths import distances_to_nearest, edge_distances
 from geodesics.topology.edges import components, edges
 from gmds.registration.deformable import DeformableMesh
-from gmds.registration.register import Registered
 
 # Root areas along the target between the images of neighbours, and mean edges of it, beyond which they are on two
 # sheets: of 48 maps of FAUST for development neighbours are 0.19 apart at the most, or 0.97 at the least
@@ -35,18 +34,18 @@ STRETCH = 1.5
 ROOM = 0.03
 
 
-def taken_back(source: DeformableMesh, target: DeformableMesh, one: Registered) -> SurfacePoints:
-    """The points (n,) of a registered source, those of islands moved to the sheet that their surroundings are on.
+def taken_back(source: DeformableMesh, target: DeformableMesh, y: Floats, points: SurfacePoints) -> SurfacePoints:
+    """The points (n,) of a source that lies at y (n, 3), those of islands moved to the sheet of their surroundings.
 
     A vertex of an island goes to the closest point, in position and normal, among what is no farther from the images of
     the rim of the island, along the target, than the vertex is from that rim, but for some stretch.
     """
-    images = one.points.nearest_vertices()
+    images = points.nearest_vertices()
     ends = edges(source.mesh).ends
     lost = islands(source, ends[~jumps(target, images[ends])])
     if not lost.any():
-        return one.points
-    rows, goals = source.moved_features(one.y), images.copy()
+        return points
+    rows, goals = source.moved_features(y), images.copy()
     for island in _connected(lost, ends):
         inside = np.isin(ends, island)
         rim = np.unique(ends[inside.any(axis=1) & ~inside.all(axis=1)])
@@ -55,9 +54,9 @@ def taken_back(source: DeformableMesh, target: DeformableMesh, one: Registered) 
             goals[island] = _among_near(source, target, island, rim, rows[island], images[rim])
     moved = np.flatnonzero(goals != images)
     found = target.closest(rows[moved], target.features, goals[moved])
-    face, weights = one.points.face.copy(), one.points.barycentric.copy()
+    face, weights = points.face.copy(), points.barycentric.copy()
     face[moved], weights[moved] = found.face, found.barycentric
-    return SurfacePoints(one.points.mesh, face, weights)
+    return SurfacePoints(points.mesh, face, weights)
 
 
 def on_the_sheets_of(images: Integers, coarse: DeformableMesh, found: Integers, fine: DeformableMesh) -> Integers:

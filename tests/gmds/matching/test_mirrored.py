@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import functools
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,7 +13,9 @@ from cut_shapes import cut
 import gmds
 from geodesics import Mesh
 from gmds.maps.point_map import MatchStatus
-from gmds.matching.attempts import FAR_LIKELIER, SYMMETRIC, Orientation, own_symmetry
+from gmds.matching import attempts
+from gmds.matching.attempts import FAR_LIKELIER, SYMMETRIC, Attempt, Orientation, Wanted, own_symmetry, suspected_image
+from gmds.matching.method import loss_of
 from gmds.matching.pair import SurfacePair, simplified
 from gmds.parts.handedness import AS_IT_IS, INSIDE_OUT, MIRRORED, Image, image_costs
 from gmds.shapes import humanoid, quadruped
@@ -91,6 +95,25 @@ def test_a_symmetric_body_in_a_mirrored_pose_is_not_mirrored() -> None:
     person = humanoid("walk", n_vertices=700)
     answer = gmds.match(person, other_side(humanoid("walk", n_vertices=700, seed=1)), n_samples=60)
     assert not [code for code in codes(answer) if code in ("W225", "W226")]
+
+
+def test_what_improved_maps_explain_does_not_hide_a_mirrored_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Regions laid anew fit each by itself to the mirror image as well: maps as proposed say whether it is weighed."""
+
+    def perfect(one: Any) -> Any:
+        ways = (
+            replace(way, residuals=replace(way.residuals, curvature=1.0, curvature_back=1.0)) for way in ways_of(one)
+        )
+        return replace(one, **dict(zip(("registered", "back"), ways, strict=True)))
+
+    def ways_of(one: Any) -> tuple[Any, Any]:
+        return one.registered, one.back
+
+    monkeypatch.setattr(attempts, "improved", lambda _, found: [perfect(one) for one in found.maps])
+    wanted = Wanted(None, None, loss_of(None, None), 60, "neither", lambda *_: None, looked_for=False)
+    attempt = Attempt.at(measure(bone(0)), measure(other_side(bone(1))), AS_IT_IS, wanted)
+    assert attempt.maps[0].residuals[0].curvature == 1.0
+    assert suspected_image([attempt]) == MIRRORED
 
 
 def test_how_symmetric_a_surface_is() -> None:

@@ -48,7 +48,7 @@ def test_a_patch_on_the_other_sheet_is_taken_back(surface: DeformableMesh) -> No
     patch = np.flatnonzero((np.abs(places[:, 0] - 0.3) < 0.1) & (places[:, 1] < 0.2) & (places[:, 2] == 0))
     one = sent_over(surface, patch)
     assert (np.abs(one.points.positions - places)[patch, 2] == GAP).all()
-    back = taken_back(surface, surface, one)
+    back = taken_back(surface, surface, one.y, one.points)
     np.testing.assert_allclose(back.positions, places, atol=1e-12)
 
 
@@ -57,16 +57,16 @@ def test_an_island_is_taken_back_alike_in_pieces(surface: DeformableMesh, monkey
     places = surface.mesh.vertices
     patch = np.flatnonzero((np.abs(places[:, 0] - 0.3) < 0.1) & (places[:, 1] < 0.2) & (places[:, 2] == 0))
     one = sent_over(surface, patch)
-    whole = taken_back(surface, surface, one)
+    whole = taken_back(surface, surface, one.y, one.points)
     monkeypatch.setattr("gmds.registration.contacts.PAIRS", 1)
-    pieces = taken_back(surface, surface, one)
+    pieces = taken_back(surface, surface, one.y, one.points)
     np.testing.assert_array_equal(pieces.face, whole.face)
     np.testing.assert_array_equal(pieces.barycentric, whole.barycentric)
 
 
 def test_what_does_not_jump_stays_as_it_is(surface: DeformableMesh) -> None:
     one = sent_over(surface, np.empty(0, dtype=np.int64))
-    assert taken_back(surface, surface, one) is one.points
+    assert taken_back(surface, surface, one.y, one.points) is one.points
 
 
 def test_half_of_a_surface_is_no_island(surface: DeformableMesh) -> None:
@@ -75,7 +75,7 @@ def test_half_of_a_surface_is_no_island(surface: DeformableMesh) -> None:
     half = np.flatnonzero((places[:, 1] < 0.24) & (places[:, 2] == 0) & (places[:, 0] < 0.9))
     assert surface.areas[half].sum() > MOST
     one = sent_over(surface, half)
-    assert taken_back(surface, surface, one) is one.points
+    assert taken_back(surface, surface, one.y, one.points) is one.points
 
 
 def test_pairs_jump_where_they_are_far_along_the_surface(surface: DeformableMesh) -> None:
