@@ -15,7 +15,7 @@ from geodesics.topology.edges import edge_ends, edge_keys
 def edge_distances(mesh: Mesh, sources: Integers, limit: float = np.inf) -> Floats:
     """Length of the shortest path along edges from each source (k,) to every vertex, (k, n).
 
-    +inf where there is none, or none that is shorter than `limit`.
+    +inf where there is none, or where it is longer than `limit`.
     """
     return np.atleast_2d(dijkstra(_edge_lengths(mesh), directed=False, indices=sources, limit=limit))
 
