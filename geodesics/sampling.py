@@ -82,8 +82,8 @@ def farthest_point_sampling(distance: Distance, count: int, first: int | None = 
     return farthest_point_cells(distance, count, first).samples
 
 
-def farthest_point_cells(distance: Distance, count: int, first: int | None = None) -> Cells:
-    """Farthest-point sampling with the Voronoi cells it leaves behind.
+def farthest_point_cells(distance: Distance, count: int, first: int | None = None, begun: Cells | None = None) -> Cells:
+    """Farthest-point sampling with the Voronoi cells it leaves behind; fewer that were `begun` so are gone on from.
 
     With a geodesic distance each front stops where it meets a smaller distance: O(n log n) for all samples together.
     """
@@ -95,8 +95,13 @@ def farthest_point_cells(distance: Distance, count: int, first: int | None = Non
         raise BadArgument(f"first must be a vertex on the surface, not {first!r:.40}")
     closer, samples = _spreader(distance), np.empty(count, dtype=np.int64)
     nearest, cell = np.full(mesh.n_vertices, np.inf), np.full(mesh.n_vertices, -1, dtype=np.int64)
-    samples[0] = _outermost(mesh, eligible) if first is None else first
-    for i in range(count):
+    done = 0 if begun is None else len(begun.samples)
+    if begun is None:
+        samples[0] = _outermost(mesh, eligible) if first is None else first
+    else:
+        samples[:done], nearest, cell = begun.samples, begun.distance.copy(), begun.nearest.copy()
+        eligible[begun.samples] = False
+    for i in range(done, count):
         if i > 0:
             samples[i] = np.where(eligible, nearest, -1.0).argmax()
         eligible[samples[i]] = False

@@ -10,9 +10,9 @@ import functools
 import os
 import threading
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager, nullcontext
-from typing import ParamSpec, TypeVar
+from concurrent.futures import ThreadPoolExecutor, wait
+from contextlib import contextmanager
+from typing import Any, ParamSpec, TypeVar
 
 from threadpoolctl import threadpool_limits
 
@@ -72,21 +72,53 @@ def side_by_side(
 
     A function that runs on one of these threads uses no others. `progress(share)` is called on the calling thread as
     results arrive. An exception, of the function or of `progress`, ends the work, and items that have not begun are
-    left out.
+    left out. The threads are kept: starting two takes as long as a search for 700 closest points.
     """
-    given, results = list(items), []
-    count = 1 if getattr(_own, "busy", False) else min(threads(), len(given))
-    with ThreadPoolExecutor(count, initializer=_make_busy) if count > 1 else nullcontext() as pool:
-        try:
-            for result in map(function, given) if pool is None else pool.map(function, given):
-                results.append(result)
-                if progress is not None:
-                    progress(len(results) / len(given))
-        except BaseException:
-            if pool is not None:
-                pool.shutdown(wait=False, cancel_futures=True)
-            raise
-    return results
+    given = list(items)
+    if spare() == 1 or len(given) < 2:
+        return [_told(result, i, given, progress) for i, result in enumerate(map(function, given), start=1)]
+    pool = _pool(threads())
+    running = [pool.submit(function, one) for one in given]
+    try:
+        return [_told(one.result(), i, given, progress) for i, one in enumerate(running, start=1)]
+    except BaseException:
+        for one in running:
+            one.cancel()
+        wait(running)
+        raise
+
+
+def both(first: Callable[[], R], second: Callable[[], S]) -> tuple[R, S]:
+    """What two functions return: the second on another thread, if one is to spare, while this one calls the first."""
+    if spare() == 1:
+        return first(), second()
+    other = _pool(threads()).submit(second)
+    try:
+        return first(), other.result()
+    except BaseException:
+        other.cancel()
+        wait([other])
+        raise
+
+
+def spare() -> int:
+    """How many threads what is called here may use: one, on a thread of `side_by_side`."""
+    return 1 if getattr(_own, "busy", False) else threads()
+
+
+def _told(result: R, number: int, of: list[Any], progress: Callable[[float], None] | None) -> R:
+    if progress is not None:
+        progress(number / len(of))
+    return result
+
+
+@functools.cache
+def _pool(count: int) -> ThreadPoolExecutor:
+    return ThreadPoolExecutor(count, thread_name_prefix="geodesics", initializer=_make_busy)
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_pool.cache_clear)  # the child has none of its threads
 
 
 def _make_busy() -> None:

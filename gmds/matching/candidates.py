@@ -9,6 +9,7 @@ import numpy as np
 from geodesics import DiffusionDistance, Distance, SurfacePoints
 from geodesics.arrays import Integers
 from geodesics.caching import cached_property
+from geodesics.threads import both
 from gmds.matching.effort import keeps_sizes
 from gmds.matching.evidence import Evidence, evidence
 from gmds.matching.given_distances import GivenDistances, placed_in_given
@@ -72,9 +73,8 @@ class MapCandidate:
         Its evidence, and how far the source is bent: distances from a similarity are Gaussian residuals too, of which
         the largest tell the most. Limbs bend, so where there are some it counts only that a map hardly bends anything.
         """
-        most = np.inf if self.pair.limbless else HARDLY_BENT
-        by = float(np.clip(bent(self.pair.full[0], self.deformation.y), LEAST_BENT, most))
-        return self.evidence.neg_log_likelihood + float(np.log(by))
+        by = max(bent(self.pair.full[0], self.deformation.y), LEAST_BENT)
+        return self.evidence.neg_log_likelihood + float(np.log(by if self.pair.limbless else min(by, HARDLY_BENT)))
 
 
 def make_candidate(
@@ -149,8 +149,8 @@ def prolonged(pair: SurfacePair, proposal: Proposal) -> Integers:
 
 def diffusion_distances(source: View, target: View) -> tuple[Distance, Distance]:
     """Diffusion distances (3.1), by as many eigenfunctions in one view as in the other, or equal surfaces differ."""
-    k = common_functions(source, target)
-    return DiffusionDistance(source.first(k).spectrum, TIME), DiffusionDistance(target.first(k).spectrum, TIME)
+    ours, theirs = (view.first(common_functions(source, target)).spectrum for view in (source, target))
+    return DiffusionDistance(ours, TIME), DiffusionDistance(theirs, TIME)
 
 
 def common_functions(source: View, target: View) -> int:
@@ -171,30 +171,30 @@ def placed(
     samples = source.samples(count)
     problem = Problem(distances[0], samples, distances[1], pairs=pairs_asked(len(samples)))
     solution = solve_by_ladder(problem, images[samples], loss, max_iterations=ITERATIONS)
-    with_landmarks = pair.with_landmarks(samples, solution.points)
-    return extend(source, target, *with_landmarks, common_functions(source, target)), solution
+    held = pair.with_landmarks(samples, solution.points)
+    return extend(source, target, *held, common_functions(source, target)), solution
 
 
 def registered(pair: SurfacePair, points: SurfacePoints, settings: RegistrationSettings | None = None) -> Registered:
     """The source deformed from where the map to `points` (n,) sends it; left there if that is a congruence already."""
     y, settings = points.positions, settings or pair.settings
     same = assessed(*pair.full, y, settings)
-    if same.residuals.is_congruence:
-        return replace(same, points=points)
-    return register(*pair.full, y, settings)
+    is_congruence = same.residuals.is_congruence
+    return replace(same, points=points) if is_congruence else register(*pair.full, y, settings)
 
 
 def mirrored(best: MapCandidate) -> list[MapCandidate]:
     """The map composed with a reflection of one of the surfaces; none if neither has one."""
-    pair = best.pair
-    ours, theirs = pair.reflections
+    pair, (ours, theirs) = best.pair, best.pair.reflections
     if ours is not None:
         points = best.points[ours]
     elif theirs is not None:
         points = SurfacePoints.at_vertices(pair.target.mesh, theirs[best.points.nearest_vertices()])
     else:
         return []
-    deformation = assessed(*pair.full, points.positions, FULL)
-    simplified = Proposal.of(pair, points.positions[pair.simplified[0].origin]).residuals
+    deformation, simplified = both(
+        lambda: assessed(*pair.full, points.positions, FULL),
+        lambda: Proposal.of(pair, points.positions[pair.simplified[0].origin]).residuals,
+    )
     weighed = evidence(pair, best.views, points, simplified, deformation.residuals)
     return [replace(best, points=points, deformation=deformation, evidence=weighed, other=None, laid=None)]

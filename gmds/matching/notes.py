@@ -19,6 +19,7 @@ from __future__ import annotations
 
 from geodesics import Mesh
 from geodesics.errors import Note
+from geodesics.threads import side_by_side
 from geodesics.topology.invariants import invariants
 from gmds.maps.doubt import doubtful_regions
 from gmds.maps.point_map import MatchStatus, PointMap
@@ -33,7 +34,7 @@ def match_notes(source: Mesh, target: Mesh, status: MatchStatus, *, of_a_part: b
     `of_a_part`: whether one was taken for a part of the other, which has another topology as a rule.
     """
     notes = []
-    ours, theirs = invariants(source), invariants(target)
+    ours, theirs = side_by_side(invariants, (source, target))
     if not of_a_part and str(ours) != str(theirs):
         notes.append(Note("W205", "info", f"different topology: the source has {ours}; the target has {theirs}"))
     if status is MatchStatus.AMBIGUOUS:

@@ -153,14 +153,8 @@ def match(  # noqa: PLR0913 - the signature is a promise
         measured, facing = copies.copies
     looked_for = distance is None and (landmarks is None or parts != "auto")
     wanted = Wanted(constraints, distance, loss, count, parts, report, looked_for)
-    settings = {
-        "n_samples": min(count, len(measured.regular.usable)),
-        **method_in_words(distance, loss),
-        "orientation": orientation,
-        "parts": parts,
-        "rng": rng,
-    }
-    answer, image = _answered(measured, facing, orientation, wanted, {"parameters": settings})
+    settings = {**method_in_words(distance, loss), "orientation": orientation, "parts": parts, "rng": rng}
+    answer, image = _answered(measured, facing, orientation, wanted, settings)
     answer = on_given(answer if copies is None else copies.prolonged(answer), *whole)
     of_a_part = "part" in answer.meta
     notes = match_notes(measured.original, facing.original, answer.status, of_a_part=of_a_part)
@@ -177,10 +171,11 @@ def match(  # noqa: PLR0913 - the signature is a promise
 
 
 def _answered(
-    source: Surface, target: Surface, orientation: Orientation, wanted: Wanted, meta: Mapping[str, Any]
+    source: Surface, target: Surface, orientation: Orientation, wanted: Wanted, settings: Mapping[str, Any]
 ) -> tuple[Correspondence, Image | None]:
     """The likeliest map, of a whole or a part, and an image of the target, not asked for, that fits far better."""
     tried = attempted(source, target, orientation, wanted)
+    meta = {"parameters": {"n_samples": min(wanted.count, len(source.regular.usable)), **settings}}
     other = likelier_image(tried, orientation, wanted)
     if other is not None and orientation != "preserve":
         tried = [other]

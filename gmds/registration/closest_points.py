@@ -10,6 +10,7 @@ from scipy.spatial import cKDTree
 
 from geodesics import SurfacePoints
 from geodesics.arrays import Floats, Integers
+from geodesics.threads import both
 from gmds._kernels.deformation import weighted_goals
 from gmds.registration.deformable import DeformableMesh
 from gmds.registration.settings import RegistrationSettings
@@ -54,8 +55,10 @@ class ClosestPoints:
         """
         ours, theirs = source.moved_features(y), target.features
         if before is None:
-            near = target.usable[target.tree.query(ours)[1]]
-            back = source.usable[cKDTree(ours[source.usable]).query(theirs[target.usable])[1]]
+            near, back = both(
+                lambda: target.usable[target.tree.query(ours)[1]],
+                lambda: source.usable[cKDTree(ours[source.usable]).query(theirs[target.usable])[1]],
+            )
         else:
             near = target.nearest(ours, theirs, before.near)
             back = source.nearest(theirs[target.usable], ours, before.back)

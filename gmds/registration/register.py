@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -9,6 +10,7 @@ from scipy.spatial import cKDTree
 
 from geodesics import SurfacePoints
 from geodesics.arrays import Floats
+from geodesics.threads import both
 from gmds.registration.closest_points import ClosestPoints
 from gmds.registration.deformable import DeformableMesh
 from gmds.registration.residuals import Residuals
@@ -105,9 +107,9 @@ def settled(source: DeformableMesh, target: DeformableMesh, y: Floats, settings:
     for stiffness_weight, steps in settings.stages:
         closest = None if settings.restarts else closest
         for _ in range(steps):
-            closest = ClosestPoints.of(source, target, y, settings, closest)
-            weights, goals = closest.point_constraints(target)
-            local = energy.local_step(y)
+            find = functools.partial(ClosestPoints.of, source, target, y, settings, closest)
+            found, local = both(find, functools.partial(energy.local_step, y))
+            closest, (weights, goals) = found, found.point_constraints(target)
             if source.anchors is not None:
                 total = float(energy.value(y, local).sum())
                 weights, goals = source.anchors.added_to((weights, goals), y, stiffness_weight, total)

@@ -75,7 +75,9 @@ class View:
         if count not in self.sampled:
             distance = self.distance(SAMPLING_FUNCTIONS)
             first = int((distance.embedding**2).sum(axis=1).argmax())
-            self.sampled[count] = farthest_point_cells(distance, count, first)
+            fewer = max((number for number in self.sampled if number < count), default=None)
+            begun = None if fewer is None else self.sampled[fewer]
+            self.sampled[count] = farthest_point_cells(distance, count, first, begun)
         return self.sampled[count]
 
     @cached_property

@@ -92,6 +92,19 @@ def test_cells_are_the_labels_of_the_distances() -> None:
     np.testing.assert_array_equal(cells.samples, farthest_point_sampling(distance, 25))
 
 
+@pytest.mark.parametrize("make", [CommuteTimeDistance, WholeFields], ids=["spectral", "fields"])
+def test_cells_that_were_begun_are_gone_on_from(make) -> None:  # type: ignore[no-untyped-def]
+    mesh = SQUEEZED
+    distance = make(eigenpairs(embedded(mesh), 20)) if make is CommuteTimeDistance else make(GeodesicDistance(mesh))
+    begun = farthest_point_cells(distance, 12, first=5)
+    kept = [array.copy() for array in begun]
+    ours, alone = farthest_point_cells(distance, 30, begun=begun), farthest_point_cells(distance, 30, first=5)
+    for one, other in zip(ours, alone, strict=True):
+        np.testing.assert_array_equal(one, other)
+    for one, other in zip(begun, kept, strict=True):
+        np.testing.assert_array_equal(one, other)
+
+
 def test_samples_cover_a_square_evenly() -> None:
     """Five samples from a corner: the other corners, then the middle."""
     mesh = rectangle(20, 20)

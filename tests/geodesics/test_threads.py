@@ -16,7 +16,7 @@ from places import ROOT
 from threadpoolctl import threadpool_info, threadpool_limits
 
 from geodesics.caching import cached_property
-from geodesics.threads import on_one_blas_thread, one_blas_thread, side_by_side
+from geodesics.threads import both, on_one_blas_thread, one_blas_thread, side_by_side, spare
 from geodesics.threads import threads as allowed
 
 
@@ -144,3 +144,38 @@ def test_threads_have_no_threads_of_their_own(monkeypatch: pytest.MonkeyPatch) -
     inside = side_by_side(lambda i: {threading.get_ident(), *side_by_side(who, range(6))}, range(6))
     assert all(len(seen) == 1 for seen in inside) and len(set.union(*inside)) == 3
     assert len(set(side_by_side(who, range(6)))) == 3  # the caller may use them again
+
+
+@pytest.mark.parametrize("count", ["1", "2"])
+def test_two_functions_are_called_at_the_same_time_where_a_thread_is_to_spare(
+    monkeypatch: pytest.MonkeyPatch, count: str
+) -> None:
+    monkeypatch.setenv("GMDS_THREADS", count)
+    barrier = threading.Barrier(int(count))
+
+    def fails() -> int:
+        barrier.wait(timeout=20)
+        raise KeyError
+
+    def meets() -> int:
+        barrier.wait(timeout=20)
+        return spare()
+
+    assert both(meets, meets) == (int(count), 1)  # the other thread has no others to spare
+    for two in ((fails, meets), (meets, fails)):
+        with pytest.raises(KeyError):
+            both(*two)
+        barrier.reset()
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system")
+def test_a_process_that_was_forked_has_threads_of_its_own() -> None:
+    code = (
+        "import os\nfrom geodesics.threads import side_by_side\n"
+        "side_by_side(abs, [1, -2])\n"
+        "child = os.fork()\n"
+        "if child == 0:\n    os._exit(0 if side_by_side(abs, [1, -2]) == [1, 2] else 1)\n"
+        "os._exit(os.waitpid(child, 0)[1])\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], env={**os.environ, "GMDS_THREADS": "2"}, cwd=ROOT, timeout=60)
+    assert done.returncode == 0
