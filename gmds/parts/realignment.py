@@ -8,6 +8,7 @@ source registered anew. Similarities are improved by closest points (Besl and Mc
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -18,6 +19,7 @@ from scipy.spatial.transform import Rotation
 
 from geodesics import GeodesicDistance, SurfacePoints, embedded, farthest_point_sampling
 from geodesics.arrays import Bools, Floats, Integers
+from geodesics.threads import both, side_by_side
 from geodesics.topology.components import largest_component
 from gmds._kernels.alignments import alignment_costs, refined_alignments
 from gmds._kernels.rotations import nearest_rotations
@@ -77,13 +79,19 @@ def laid_anew(
     body = source.usable[np.isin(source.usable, source.mesh.faces[largest_component(source.mesh)])]
     centres = farthest_point_sampling(distance, min(CENTRES, len(body)), int(body[0]))
     images = target.usable[cKDTree(target.mesh.vertices[target.usable]).query(y[centres])[1]]
-    found: list[Placement] = []
-    for here, beyond in zip(_distances(source, centres), _distances(target, images), strict=True):
+
+    def around(distances: tuple[Floats, Floats]) -> list[Placement]:
+        found: list[Placement] = []
+        here, beyond = distances
         for share in shares:
             one, there = Patch(source, _nearest(source, here, share)), share * size**2
             other = Patch(target, _nearest(target, beyond, ROOM * there))
             middle = target.mesh.vertices[_nearest(target, beyond, there)].mean(axis=0)
             found += _better(one, other, y[one.vertices], middle, size)
+        return found
+
+    from_both = both(lambda: _distances(source, centres), lambda: _distances(target, images))
+    found = itertools.chain(*side_by_side(around, zip(*from_both, strict=True)))
     return sorted(found, key=lambda laid: laid.cost)
 
 
