@@ -27,6 +27,7 @@ EDGES = 5
 MOST = 0.1
 LEAST_REST = 0.5
 RINGS = 3  # around an image, where nothing is far: a bound, so that few paths are looked for
+WALKS = 4_000_000  # of as many edges, from what is looked up at a time: 40 MB at the most; a bound, so that memory is
 BLOCK = 256  # starts of paths at a time: a bound, so that memory is
 PAIRS = 2_000_000  # of an island and what is near its rim, at a time: 100 MB; a bound as well
 # How much longer a path on the target may be than that on the source, and root areas that come on top; set by hand.
@@ -78,7 +79,7 @@ def on_the_sheets_of(images: Integers, coarse: DeformableMesh, found: Integers, 
 
 def jumps(target: DeformableMesh, images: Integers) -> Bools:
     """Whether vertices of the target, in pairs (e, 2), are far apart along it."""
-    far = np.flatnonzero(~np.asarray(_rings(target)[images[:, 0], images[:, 1]], dtype=np.bool_).ravel())
+    far = np.flatnonzero(~within_rings(target, images))
     result = np.zeros(len(images), dtype=np.bool_)
     if len(far):
         ends = edges(target.mesh).ends
@@ -91,14 +92,38 @@ def jumps(target: DeformableMesh, images: Integers) -> Bools:
     return result
 
 
+def within_rings(mesh: DeformableMesh, pairs: Integers) -> Bools:
+    """Whether vertices, in pairs (e, 2), are within `RINGS` edges of each other.
+
+    Looked up in rows of the power of the matrix of steps, some at a time: beside a vertex of 8,000 neighbours all of it
+    would take gigabytes.
+    """
+    steps = _steps(mesh)
+    result = np.asarray(steps[pairs[:, 0], pairs[:, 1]], dtype=np.bool_).ravel()
+    rest = np.flatnonzero(~result)
+    begin, row = np.unique(pairs[rest, 0], return_inverse=True)
+    walks = np.ones(mesh.mesh.n_vertices)  # of so many steps from a vertex: no fewer than where they end
+    for _ in range(RINGS):
+        walks = steps @ walks
+    block = (np.cumsum(walks[begin]) // WALKS).astype(np.int64)
+    for number in np.unique(block):
+        these = np.flatnonzero(block == number)
+        rows = steps[begin[these]]
+        for _ in range(RINGS - 1):
+            rows = rows @ steps
+        here = np.flatnonzero((row >= these[0]) & (row <= these[-1]))
+        ends = pairs[rest[here], 1]
+        result[rest[here]] = np.asarray(rows[row[here] - these[0], ends], dtype=np.bool_).ravel()
+    return result
+
+
 @memoized
-def _rings(mesh: DeformableMesh) -> sp.csr_matrix:
-    """Which vertices (n, n) are within `RINGS` edges of each other."""
+def _steps(mesh: DeformableMesh) -> sp.csr_matrix:
+    """Which vertices (n, n) are the same, or the ends of an edge."""
     n = mesh.mesh.n_vertices
     ends = edges(mesh.mesh).ends
-    steps = sp.coo_matrix((np.ones(len(ends), dtype=np.int32), ends.T), shape=(n, n)).tocsr()
-    steps = steps + steps.T + sp.identity(n, dtype=np.int32, format="csr")
-    return sp.csr_matrix(steps**RINGS)
+    steps = sp.coo_matrix((np.ones(len(ends), dtype=np.bool_), ends.T), shape=(n, n)).tocsr()
+    return sp.csr_matrix(steps + steps.T + sp.identity(n, dtype=np.bool_, format="csr"))
 
 
 def islands(source: DeformableMesh, kept: Integers) -> Bools:

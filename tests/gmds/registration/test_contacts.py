@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tracemalloc
 from dataclasses import replace
 
 import numpy as np
@@ -9,7 +10,8 @@ import pytest
 
 from geodesics import Mesh, SurfacePoints
 from geodesics.topology.edges import edges
-from gmds.registration.contacts import JUMP, MOST, islands, jumps, on_the_sheets_of, taken_back
+from gmds.registration import contacts
+from gmds.registration.contacts import JUMP, MOST, RINGS, islands, jumps, on_the_sheets_of, taken_back, within_rings
 from gmds.registration.deformable import DeformableMesh
 from gmds.registration.register import Registered, assessed
 from gmds.registration.settings import FULL
@@ -87,6 +89,47 @@ def test_pairs_jump_where_they_are_far_along_the_surface(surface: DeformableMesh
     told = jumps(surface, np.stack([row, above], axis=1))
     assert not told[far < 0.8 * JUMP].any()
     assert told[far > 1.5 * JUMP].all()
+
+
+def spindle(count: int) -> DeformableMesh:
+    """Two vertices, and a ring of so many others that are all neighbours of both."""
+    turn = np.linspace(0, 2 * np.pi, count, endpoint=False)
+    places = np.vstack([np.stack([np.cos(turn), np.sin(turn), 0 * turn], axis=1), [[0, 0, 0.1], [0, 0, -0.1]]])
+    one = np.arange(count)
+    other, top = np.roll(one, -1), np.full(count, count)
+    faces = np.vstack([np.stack([one, other, top], axis=1), np.stack([other, one, top + 1], axis=1)])
+    return DeformableMesh(Mesh(places, faces), np.arange(len(places)), np.zeros(len(places)))
+
+
+@pytest.mark.parametrize("walks", [contacts.WALKS, 1])
+def test_rings_are_those_of_the_power_of_the_matrix(
+    surface: DeformableMesh, walks: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(contacts, "WALKS", walks)
+    n = surface.mesh.n_vertices
+    steps = np.eye(n)
+    steps[tuple(edges(surface.mesh).ends.T)] = 1
+    near = np.linalg.matrix_power(np.maximum(steps, steps.T), RINGS) > 0
+    here = np.random.default_rng(0).integers(0, n, 2000)
+    pairs = np.stack([here, (here + np.random.default_rng(1).integers(-90, 90, 2000)) % n], axis=1)
+    told = within_rings(surface, pairs)
+    np.testing.assert_array_equal(told, near[tuple(pairs.T)])
+    assert told.any() and not told.all()
+
+
+def test_rings_around_a_vertex_of_thousands_of_neighbours_take_little_memory() -> None:
+    """The table of all of them, 3,000 x 3,000, takes 140 MB."""
+    hub = spindle(3000)
+    pairs = np.random.default_rng(0).integers(0, 3000, (6000, 2))
+    edges(hub.mesh)
+    tracemalloc.start()
+    try:
+        told = within_rings(hub, pairs)
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert told.all()
+    assert peak < 20e6
 
 
 def test_islands_are_small_beside_one_that_is_most_of_the_surface(surface: DeformableMesh) -> None:
