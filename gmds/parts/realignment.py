@@ -22,10 +22,10 @@ from geodesics.arrays import Bools, Floats, Integers
 from geodesics.threads import both, side_by_side
 from geodesics.topology.components import largest_component
 from gmds._kernels.alignments import alignment_costs, refined_alignments
-from gmds._kernels.rotations import nearest_rotations
 from gmds.parts.alignments import MISSING, STEPS, TURN, Similarities
 from gmds.parts.boxes import CELLS, box_around
 from gmds.registration.deformable import DeformableMesh
+from gmds.registration.similarity import nearest_similarity
 
 # Points that regions lie around, shares of the area that they have, and how much larger the part of the target is that
 # they are laid on; set by hand.
@@ -167,12 +167,10 @@ def _refined(
 
 def _fitted(one: Patch, y: Floats, size: float) -> Similarities:
     """The similarity that is closest to the map of a region to y (k, 3)."""
-    x, areas = one.places, one.areas
-    x, goals = x - areas @ x, y - areas @ y
-    rotations, sums = nearest_rotations(np.ascontiguousarray(((areas[:, None] * x).T @ goals)[None]))
-    spread = max(float(areas @ (x**2).sum(axis=1)), np.finfo(float).tiny)  # that of a region in one place is 0
-    sizes = np.clip(sums / spread, SIZES[0] * size, SIZES[1] * size)
-    return Similarities(rotations, sizes, areas @ y - sizes * (rotations @ (areas @ one.places)))
+    nearest = nearest_similarity(one.places, y, one.areas)
+    sizes = np.clip([nearest.size], SIZES[0] * size, SIZES[1] * size)
+    rotations = nearest.rotation[None]
+    return Similarities(rotations, sizes, nearest.there - sizes * (rotations @ nearest.here))
 
 
 def _apart(one: Patch, places: Floats, others: Floats) -> float:

@@ -12,6 +12,7 @@ from geodesics.arrays import Floats
 from gmds.registration.deformable import DeformableMesh
 from gmds.registration.register import Registered, settled
 from gmds.registration.settings import AFFINE
+from gmds.registration.similarity import nearest_similarity
 
 # Root areas from a similarity within which anything keeps its shape, limbs or not: skulls lie at 0.008 - 0.014, people
 # in one pose at 0.026 and more (benchmarks/results/notes.md, "Shapes without limbs").
@@ -19,13 +20,8 @@ HARDLY_BENT = 0.02
 
 
 def similar(source: DeformableMesh, y: Floats) -> Floats:
-    """Where the similarity that is nearest to vertices at y (n, 3) sends them (Umeyama 1991), without mirroring."""
-    areas, x = source.areas, source.mesh.vertices
-    centre, goal = areas @ x, areas @ y
-    u, values, v = np.linalg.svd((areas[:, None] * (y - goal)).T @ (x - centre))
-    signs = np.array([1.0, 1.0, np.sign(np.linalg.det(u @ v))])
-    size = (values * signs).sum() / max(areas @ ((x - centre) ** 2).sum(axis=1), np.finfo(float).tiny)
-    return np.asarray(size * (x - centre) @ ((u * signs) @ v).T + goal, dtype=np.float64)
+    """Where the similarity that is nearest to vertices at y (n, 3) sends them, without mirroring."""
+    return nearest_similarity(source.mesh.vertices, y, source.areas).moved(source.mesh.vertices)
 
 
 def bent(source: DeformableMesh, y: Floats) -> float:
