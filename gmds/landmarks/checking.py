@@ -54,6 +54,8 @@ def check_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> tuple[Surface
 
 def place_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> PlacedLandmarks:
     """As `check_landmarks`, with tolerances, and a note (W301) on positions moved to the surface, and how far."""
+    if isinstance(landmarks, PlacedLandmarks):
+        return landmarks
     notes: list[Note] = []
     sides = []
     tolerance: ArrayLike = 0.0

@@ -13,6 +13,7 @@
 | W304 | small parts of a mesh hang together with nothing: their vertices go along with the nearest and are not valid |
 | W305 | a body of one mesh has no partner in the other, or was not looked at; the status is INCOMPLETE or worse |
 | W306 | regions where the map is probably wrong, by its confidence: their shares, and a vertex in the midst of each |
+| W307 | landmarks that do not fit the map around them, and by how much; the status is POOR |
 """
 
 from __future__ import annotations

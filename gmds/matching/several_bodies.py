@@ -16,7 +16,6 @@ from geodesics.repair.repairing import inverse_index
 from geodesics.topology.components import component_areas
 from gmds.correspondence import Correspondence
 from gmds.landmarks.placed import PlacedLandmarks
-from gmds.landmarks.soft import SoftLandmarks
 from gmds.maps.point_map import MatchStatus
 from gmds.matching.bodies import BODY, MOST_BODIES, Body, matched_bodies
 from gmds.matching.clean_copies import cleaning_notes, on_given
@@ -91,8 +90,10 @@ def _left_out(bodies: Sequence[Body], alone: Sequence[int], name: str) -> list[N
     return [Note("W305", "warning", message, first, len(alone))]
 
 
-def _landmarks(placed: PlacedLandmarks, pair: tuple[Body, Body], whole: tuple[Surface, Surface]) -> Any:
-    """The landmarks that lie on both bodies, in a form that `match` takes; None where none does."""
+def _landmarks(
+    placed: PlacedLandmarks, pair: tuple[Body, Body], whole: tuple[Surface, Surface]
+) -> PlacedLandmarks | None:
+    """The landmarks that lie on both bodies; None where none does."""
     sides = placed.on_source, placed.on_target
     rows = [_faces(*one) for one in zip(sides, pair, whole, strict=True)]
     both = np.flatnonzero((rows[0] >= 0) & (rows[1] >= 0))
@@ -102,7 +103,7 @@ def _landmarks(placed: PlacedLandmarks, pair: tuple[Body, Body], whole: tuple[Su
         SurfacePoints(body.surface.original, row[both], side.barycentric[both])
         for side, body, row in zip(sides, pair, rows, strict=True)
     ]
-    return SoftLandmarks((halves[0], halves[1]), placed.tolerance[both])
+    return PlacedLandmarks(halves[0], halves[1], placed.tolerance[both], told=False)
 
 
 def _faces(points: SurfacePoints, body: Body, whole: Surface) -> Integers:

@@ -17,6 +17,7 @@ from gmds import Correspondence, SoftLandmarks
 from gmds.cli.choices import ChosenDistance
 from gmds.landmarks.checking import place_landmarks
 from gmds.maps.images import image
+from gmds.maps.point_map import MatchStatus
 from gmds.matching.pair import SurfacePair
 from gmds.registration.anchors import HARD, Anchors
 from gmds.registration.deformable import DeformableMesh
@@ -156,6 +157,16 @@ def test_a_soft_landmark_that_is_given_up_is_named() -> None:
     (note,) = (line for line in matched("wrong", 0.05).meta["notes"] if not line.startswith("W306"))
     assert note.startswith("W302: 1 soft landmarks") and "number 4, by 0." in note
     assert not [line for line in matched("right", 0.05).meta["notes"] if line.startswith("W302")]
+
+
+def test_a_wrong_hard_landmark_is_named_and_the_map_is_not_good() -> None:
+    """A map has to meet it: what is around it says where it belongs."""
+    (note,) = (line for line in matched("wrong").meta["notes"] if line.startswith("W307"))
+    assert "number 4 by 0." in note and "number 0" not in note
+    assert matched("wrong").status is MatchStatus.POOR
+    assert matched("right").status is MatchStatus.GOOD
+    for answer in (matched("right"), matched("right", 0.05), matched("wrong", 0.05)):
+        assert not [line for line in answer.meta["notes"] if line.startswith("W307")]
 
 
 def test_landmarks_count_with_a_distance_of_ones_own_as_well() -> None:
