@@ -14,6 +14,7 @@
 | W305 | a body of one mesh has no partner in the other, or was not looked at; the status is INCOMPLETE or worse |
 | W306 | regions where the map is probably wrong, by its confidence: their shares, and a vertex in the midst of each |
 | W307 | landmarks that do not fit the map around them, and by how much; the status is POOR |
+| W308 | a part was asked for by name, and none was found, or nothing is cut off the surface that was said to be one |
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from geodesics.threads import side_by_side
 from geodesics.topology.invariants import invariants
 from gmds.maps.doubt import doubtful_regions
 from gmds.maps.point_map import MatchStatus, PointMap
+from gmds.matching.part_answers import LEAST_BOUNDARY, Parts, longest_hole
 from gmds.parts.handedness import Image
 
 NAMED = 5  # doubtful regions that are named, at the most: set by hand
@@ -41,6 +43,26 @@ def match_notes(source: Mesh, target: Mesh, status: MatchStatus, *, of_a_part: b
     if status is MatchStatus.AMBIGUOUS:
         notes.append(Note("W207", "warning", status.value))
     return notes
+
+
+def part_notes(source: Mesh, target: Mesh, asked: Parts, found: str | None) -> list[Note]:
+    """What is said where a part was `asked` for by name and none was `found`, or nothing was cut off the surface.
+
+    Both meshes are of unit area, as they were matched.
+    """
+    if asked in ("auto", "neither"):
+        return []
+    if found is None:
+        return [Note("W308", "warning", f"parts={asked!r} found no part that can be matched: the map is of all to all")]
+    named = {"source": source, "target": target}
+    whole = [name for name, mesh in named.items() if asked in (name, "both") and longest_hole(mesh) <= LEAST_BOUNDARY]
+    if not whole:
+        return []
+    message = (
+        f"parts={asked!r} was asked for; nothing is cut off the {' or the '.join(whole)}: no boundary is longer there "
+        f"than {LEAST_BOUNDARY} square roots of the area; where both are whole, parts='neither' maps all to all"
+    )
+    return [Note("W308", "info", message)]
 
 
 def doubt_notes(answer: PointMap) -> list[Note]:

@@ -21,7 +21,7 @@ from gmds.matching.candidates import mirrored
 from gmds.matching.clean_copies import cleaning_notes, on_clean, on_given
 from gmds.matching.large_surfaces import CoarseCopies
 from gmds.matching.method import loss_of
-from gmds.matching.notes import doubt_notes, image_notes, match_notes
+from gmds.matching.notes import doubt_notes, image_notes, match_notes, part_notes
 from gmds.matching.part_answers import PARTS, Parts, likelier_part
 from gmds.matching.result import correspondence_of
 from gmds.matching.several_bodies import beyond, incomplete, match_bodies
@@ -159,6 +159,7 @@ def match(  # noqa: PLR0913 - the signature is a promise
     of_a_part = "part" in answer.meta
     notes = match_notes(measured.original, facing.original, answer.status, of_a_part=of_a_part)
     notes += [] if image is None else image_notes(image, taken=orientation != "preserve")
+    notes += part_notes(measured.mesh, facing.mesh, parts, answer.meta.get("part"))
     notes += [*cleaning_notes(*whole), *doubt_notes(answer)]
     if more := beyond(bodies, whole):
         answer, notes = replace(answer, status=incomplete(answer.status)), [*notes, *more]

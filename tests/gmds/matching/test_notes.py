@@ -17,7 +17,8 @@ from geodesics.check import check
 from geodesics.topology.invariants import Invariants, invariants
 from gmds.appearance import keeping
 from gmds.maps.point_map import MatchStatus
-from gmds.matching.notes import match_notes
+from gmds.matching.notes import match_notes, part_notes
+from gmds.matching.part_answers import Parts
 
 ROOT = Path(geodesics.check.__file__).resolve().parents[1]
 
@@ -56,6 +57,30 @@ def test_surfaces_of_different_topology_are_named() -> None:
         "the target has 1 component, 0 boundary loops, genus 1"
     )
     assert match_notes(ball, ring, MatchStatus.GOOD, of_a_part=True) == []
+
+
+@pytest.mark.parametrize(
+    ("asked", "found", "said"),
+    [
+        ("auto", None, ""),
+        ("neither", None, ""),
+        ("source", "source", ""),
+        ("target", "target", "nothing is cut off the target:"),
+        ("both", "both", "nothing is cut off the target:"),
+        ("both", None, "the map is of all to all"),
+    ],
+)
+def test_a_part_that_was_asked_for_in_vain_is_told(asked: Parts, found: str | None, said: str) -> None:
+    """The source is a square, whose boundary is long, the target a ball."""
+    cut, whole = shapes.rectangle(6, 6), shapes.icosphere(2)
+    told = [str(note) for note in part_notes(cut, whole, asked, found)]
+    assert len(told) == bool(said) and all(note.startswith("W308: parts=") and said in note for note in told)
+
+
+def test_two_wholes_are_both_named_where_both_were_said_to_be_parts() -> None:
+    ball = shapes.icosphere(2)
+    (note,) = part_notes(ball, ball, "both", "both")
+    assert note.code == "W308" and "the source or the target" in note.message
 
 
 def test_a_match_carries_its_notes() -> None:
