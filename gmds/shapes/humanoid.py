@@ -132,6 +132,12 @@ def humanoid(
     See Also
     --------
     truth : The correspondence of two of them.
+
+    Notes
+    -----
+    In moves of your own by which parts touch or cross each other, vertices there may be taken for those of the other
+    part, and `truth` is wrong at them: with both shoulders lowered by 50 degrees 2 % of the edges join arm and side.
+    No pose with a name does that.
     """
     moves = scaled(POSES, pose, {"head": head_scale, "wrist_": hand_scale, "hip_": leg_scale})
     return figure(BODY, moves, spacing=0.0145, n_vertices=n_vertices, seed=seed)
