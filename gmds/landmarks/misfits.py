@@ -33,9 +33,11 @@ def misfits(answer: PointMap, on_source: SurfacePoints, on_target: SurfacePoints
     touches it does not count; where it goes, the similarity nearest to the map of them, weighted by area, which sends
     the landmark of the source to some distance from that on the target. NaN where there are too few vertices.
 
-    Of parts, areas are those of what is mapped: the vertices that are `valid`, and their images.
+    Of a map that reverses orientation, as its evidence says, that similarity mirrors. Of parts, areas are those of what
+    is mapped: the vertices that are `valid`, and their images.
     """
-    places, images = answer.source.vertices, answer.points.positions
+    side = np.array([-1.0 if answer.meta.get("evidence", {}).get("orientation", 1.0) < 0 else 1.0, 1.0, 1.0])
+    places, images, marks = side * answer.source.vertices, answer.points.positions, side * on_source.positions
     areas = np.where(answer.valid, one_ring_areas(answer.source), 0.0)
     unit, size = _root_areas(answer)
     starts = on_source.nearest_vertices()
@@ -46,7 +48,7 @@ def misfits(answer: PointMap, on_source: SurfacePoints, on_target: SurfacePoints
         for row, distance in enumerate(paths, start=start):
             near = np.flatnonzero((distance > AROUND[0] * unit) & (distance < AROUND[1] * unit) & (areas > 0))
             if len(near) >= FEWEST:
-                sent = _sent(places[near], images[near], areas[near], on_source.positions[row])
+                sent = _sent(places[near], images[near], areas[near], marks[row])
                 result[row] = np.linalg.norm(sent - on_target.positions[row]) / size
     return result
 

@@ -65,6 +65,13 @@ def test_another_body_around_it_has_no_say() -> None:
     np.testing.assert_allclose(gaps(carried(two), ROWS), 0, atol=1e-9)
 
 
+def test_right_landmarks_of_a_mirror_image_fit_a_map_that_says_it_reverses() -> None:
+    target = Mesh(MESH.vertices * [1.0, -1.0, 1.0], MESH.faces)
+    points = SurfacePoints.at_vertices(target, np.arange(MESH.n_vertices))
+    answer = Correspondence.from_points(MESH, points, meta={"evidence": {"orientation": -1.0}})
+    np.testing.assert_allclose(gaps(answer, ROWS), 0, atol=1e-9)
+
+
 def test_landmarks_are_called_by_their_names() -> None:
     far = np.array([0.3, 0.1, 0.25])
     assert named(np.array([0, 2]), far, ()) == "number 0 by 0.30, number 2 by 0.25"
