@@ -27,6 +27,7 @@ SHIFT = 0.6
 # Entry of the stiffness matrix, about 1 in even meshes, of an edge that is as good as no edge: a bound. A needle of
 # this aspect has it; eigenfunctions change along such an edge by its inverse.
 STIFF = 1e6
+HIGHEST = 1e100  # an eigenfunction of mean square 1: a bound, beyond which products of two overflow soon
 USUAL = 100  # eigenpairs where nobody said how many; set by hand, as many as `match` computes in the metric of space
 
 
@@ -163,6 +164,11 @@ def eigenpairs(
         a = _without_inner_links(a, joined, free=fixed is None)
         values, vectors = _generalised(a, joined.T @ b @ joined, min(count, a.shape[0]), tolerance)
         vectors = joined @ vectors
+    if not np.abs(vectors).max(initial=0.0) < HIGHEST:
+        raise EigensolverFailed(
+            f"eigenfunctions of {n} vertices are beyond {HIGHEST:.0e} where faces have all but collapsed: are "
+            "coordinates too coarse for the size of the surface, as in single precision far from the origin?"
+        )
     functions = np.zeros((n, len(values)))
     functions[free] = vectors / np.sqrt(area)
     return Spectrum(metric.mesh, metric.mass, np.maximum(values, 0) / area, functions)

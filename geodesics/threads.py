@@ -9,14 +9,17 @@ from __future__ import annotations
 import functools
 import os
 import threading
-from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import ThreadPoolExecutor, wait
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Future, wait
 from contextlib import contextmanager
-from typing import Any, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 from threadpoolctl import threadpool_limits
 
 from geodesics.moved_paths import names_moved
+
+if TYPE_CHECKING:
+    from concurrent.futures import ThreadPoolExecutor
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -75,29 +78,22 @@ def side_by_side(
     left out. The threads are kept: starting two takes as long as a search for 700 closest points.
     """
     given = list(items)
-    if spare() == 1 or len(given) < 2:
-        return [_told(result, i, given, progress) for i, result in enumerate(map(function, given), start=1)]
-    pool = _pool(threads())
-    running = [pool.submit(function, one) for one in given]
+    running = [] if len(given) < 2 else _begun([functools.partial(function, one) for one in given])
+    results = (one.result() for one in running) if running else map(function, given)
     try:
-        return [_told(one.result(), i, given, progress) for i, one in enumerate(running, start=1)]
+        return [_told(result, i, given, progress) for i, result in enumerate(results, start=1)]
     except BaseException:
-        for one in running:
-            one.cancel()
-        wait(running)
+        _ended(running)
         raise
 
 
 def both(first: Callable[[], R], second: Callable[[], S]) -> tuple[R, S]:
     """What two functions return: the second on another thread, if one is to spare, while this one calls the first."""
-    if spare() == 1:
-        return first(), second()
-    other = _pool(threads()).submit(second)
+    other = _begun([second])
     try:
-        return first(), other.result()
+        return first(), other[0].result() if other else second()
     except BaseException:
-        other.cancel()
-        wait([other])
+        _ended(other)
         raise
 
 
@@ -112,13 +108,43 @@ def _told(result: R, number: int, of: list[Any], progress: Callable[[float], Non
     return result
 
 
+def _begun(calls: Sequence[Callable[[], R]]) -> list[Future[R]]:
+    """The calls, begun on other threads; none where there are none to spare, or where Python is about to end."""
+    if spare() == 1:
+        return []
+    running: list[Future[R]] = []
+    try:
+        for call in calls:
+            running.append(_pool(threads()).submit(call))
+    except RuntimeError:  # after the main thread has ended no thread can be started, but what runs may go on
+        _ended(running)
+        return []
+    return running
+
+
+def _ended(running: Sequence[Future[Any]]) -> None:
+    """Waits for what runs, and leaves out what has not begun."""
+    for one in running:
+        one.cancel()
+    wait(running)
+
+
 @functools.cache
 def _pool(count: int) -> ThreadPoolExecutor:
+    from concurrent.futures import ThreadPoolExecutor  # cannot be imported where Python is about to end
+
     return ThreadPoolExecutor(count, thread_name_prefix="geodesics", initializer=_make_busy)
 
 
+def _after_fork() -> None:
+    """A child has none of the threads, and a lock that one of them held is never let go there."""
+    global _lock, _running, _limits
+    _lock, _running, _limits = threading.Lock(), 0, None
+    _pool.cache_clear()
+
+
 if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_pool.cache_clear)  # the child has none of its threads
+    os.register_at_fork(after_in_child=_after_fork)
 
 
 def _make_busy() -> None:

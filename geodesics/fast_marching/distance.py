@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,6 +18,7 @@ from geodesics.memory import table
 from geodesics.mesh import Mesh
 from geodesics.metric import Metric, as_metric
 from geodesics.points import SurfacePoints
+from geodesics.threads import side_by_side, spare
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +34,8 @@ class GeodesicDistance:
     metric : Metric or Mesh
         The metric, on a mesh of n vertices; of a mesh the embedded one.
     threads : int
-        Sources that are marched at once, at most; the numbers do not depend on it.
+        Sources that are marched at once, at most, where so many threads are to spare (`geodesics.threads`); the numbers
+        do not depend on it.
 
     References
     ----------
@@ -100,13 +100,8 @@ class GeodesicDistance:
                 marching.march(corners(self.metric), front, until)
                 marching.finish(front, out[i])
 
-        workers = max(1, min(self.threads, os.cpu_count() or 1, len(points)))
-        chunks = [range(k, len(points), workers) for k in range(workers)]
-        if workers == 1:
-            march(chunks[0])
-        else:
-            with ThreadPoolExecutor(workers) as pool:
-                list(pool.map(march, chunks))
+        workers = max(1, min(self.threads, spare(), len(points)))
+        side_by_side(march, [range(k, len(points), workers) for k in range(workers)])
         return out
 
     def to_set(

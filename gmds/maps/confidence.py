@@ -11,15 +11,18 @@ them, fitted with the probability itself by `benchmarks/trust` (`benchmarks/resu
 
 from __future__ import annotations
 
+import numbers
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from geodesics.arrays import Bools, Floats
+from geodesics.errors import BadArgument
 
 RADIUS = 0.05  # root areas of the target: the distance at which the protocol stops calling a point well matched
 # Radii in root areas, and the logarithm of what odds change by from `RADIUS` to them: fitted (`benchmarks.trust.fit`).
 RADII = (0.02, 0.03, 0.05, 0.08, 0.1, 0.15, 0.2, 0.3)
-LOG_ODDS = (-2.05, -1.06, 0.0, 1.03, 1.44, 2.0, 2.41, 2.88)
+LOG_ODDS = (-2.04, -1.05, 0.0, 1.08, 1.48, 2.07, 2.5, 2.95)
 MOST_LOG_ODDS = 700.0  # beyond which the exponential of a double is 0 or infinite: a bound
 
 
@@ -40,11 +43,11 @@ def confidence_at(confidence: ArrayLike, radius: float) -> Floats:
 
     Raises
     ------
-    ValueError
-        When the radius is not a positive number.
+    BadArgument
+        When the radius is not a positive number (E604).
     """
-    if not radius > 0:
-        raise ValueError(f"radius must be a positive number of root areas, not {radius!r}")
+    if not isinstance(radius, numbers.Real) or not radius > 0:
+        raise BadArgument(f"radius must be a positive number of root areas, not {radius!r:.40}")
     p = np.asarray(confidence, dtype=np.float64)
     factor = np.exp(np.clip(log_odds(radius), -MOST_LOG_ODDS, MOST_LOG_ODDS))
     return np.asarray(p * factor / (1 - p + p * factor), dtype=np.float64)

@@ -263,6 +263,15 @@ def test_not_finite_is_a_typed_error():
         eigenpairs(metric, 5)
 
 
+def test_collapsed_faces_are_a_typed_error() -> None:
+    mesh = bumpy_sphere(3)
+    around = embedded(mesh)
+    mass = around.mass.copy()
+    mass[5] = 1e-300  # as of faces whose corners have all but met
+    with pytest.raises(EigensolverFailed, match=r"E402.*coordinates too coarse"):
+        eigenpairs(Metric(mesh, around.l_sq, mass, None), 30)
+
+
 def test_count_below_one_is_refused():
     with pytest.raises(ValueError, match="count"):
         eigenpairs(embedded(tetrahedron()), 0)

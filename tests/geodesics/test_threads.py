@@ -179,3 +179,39 @@ def test_a_process_that_was_forked_has_threads_of_its_own() -> None:
     )
     done = subprocess.run([sys.executable, "-c", code], env={**os.environ, "GMDS_THREADS": "2"}, cwd=ROOT, timeout=60)
     assert done.returncode == 0
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system")
+def test_a_process_that_was_forked_does_not_wait_for_a_lock_of_another_thread() -> None:
+    code = (
+        "import os, threading\nfrom geodesics import threads\n"
+        "threads._lock.acquire()\n"
+        "threads._running = 1\n"  # as if another thread had been about to set the number of BLAS threads
+        "child = os.fork()\n"
+        "if child == 0:\n"
+        "    with threads.one_blas_thread():\n        os._exit(threads._running != 1)\n"
+        "os._exit(os.waitpid(child, 0)[1])\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, timeout=60)
+    assert done.returncode == 0
+
+
+@pytest.mark.parametrize("before", ["side_by_side(abs, [1, -2])", "pass"], ids=["threads-kept", "none-yet"])
+def test_a_thread_that_outlives_the_script_does_its_work(before: str) -> None:
+    code = (
+        "import threading, time\nfrom geodesics.threads import both, side_by_side\n"
+        f"{before}\n"
+        "def late():\n"
+        "    threading.main_thread().join()\n    time.sleep(0.2)\n"
+        "    print(side_by_side(abs, [1, -2]), both(int, str), flush=True)\n"
+        "threading.Thread(target=late).start()\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        env={**os.environ, "GMDS_THREADS": "2"},
+        cwd=ROOT,
+        timeout=60,
+        capture_output=True,
+        text=True,
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (0, "[1, 2] (0, '')\n", "")

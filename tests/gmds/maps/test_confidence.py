@@ -35,9 +35,9 @@ def test_the_probability_of_being_near_grows_with_the_radius_and_with_confidence
     assert np.array_equal(confidence_at([0.0, 1.0], 1e-320), [0, 1])
 
 
-@pytest.mark.parametrize("radius", [0, -0.1, np.nan])
+@pytest.mark.parametrize("radius", [0, -0.1, np.nan, None, "a"])
 def test_a_radius_is_positive(radius: float) -> None:
-    with pytest.raises(ValueError, match="radius must be a positive number"):
+    with pytest.raises(ValueError, match=r"E604: radius must be a positive number"):
         confidence_at([0.5], radius)
 
 
