@@ -38,14 +38,15 @@ ASKED: dict[Orientation, tuple[Image, ...]] = {
 
 # A surface whose own mirror image has this correlation of curvature with it at the least is as good as symmetric: it
 # has no handedness. Else another image of the target is weighed where it fits without bending at such a cost at most,
-# and at a log cost above that of the target as it is by so much at most, unless the likeliest map explains curvature as
-# well as to a log-likelihood below the last. Then it has to be likelier by as much as makes a map AMBIGUOUS. Chosen on
-# the development half of benchmarks/results/mirrored.md.
+# and at a log cost above that of the target as it is by so much at most. Where the likeliest map explains curvature as
+# well as to a log-likelihood below the last it has to be below it by `LEAST_GAIN`: a round shape is explained by its
+# mirror image too. Then it has to be likelier by as much as makes a map AMBIGUOUS. Chosen on the development half of
+# benchmarks/results/mirrored.md.
 SYMMETRIC = 0.6
 MOST_COST = 0.36
 MOST_EXCESS = 0.03
 LEAST_UNEXPLAINED = -1.2
-LEAST_GAIN_TURNED = 0.3  # of log cost, where all normals would be the other way round; set by hand
+LEAST_GAIN = 0.3  # of log cost, where all normals would be the other way round, or all is explained; set by hand
 FAR_LIKELIER = AMBIGUOUS_MARGIN
 TINY = 1e-12  # a bound, so that a logarithm is finite
 
@@ -147,14 +148,13 @@ def suspected_image(found: Sequence[Attempt]) -> Image | None:
     images = [one for one in (AS_IT_IS, MIRRORED, *INSIDE_OUT) if is_open or not one.turned]
     if own_symmetry(pair) > SYMMETRIC:
         images = [one for one in images if not one.reflected or one in tried]
-    if min(one.unexplained for one in found) < LEAST_UNEXPLAINED:
-        images = [one for one in images if one.turned or one in tried]
+    explained = min(one.unexplained for one in found) < LEAST_UNEXPLAINED
     if set(images) <= set(tried):
         return None
     costs = image_costs(pair.source, pair.target, pair.simplified, images)
     cost = dict(zip(images, costs, strict=True))
     best = min((one for one in images if one not in tried), key=lambda one: cost[one])
-    excess = -LEAST_GAIN_TURNED if best.turned else MOST_EXCESS
+    excess = -LEAST_GAIN if best.turned or explained else MOST_EXCESS
     likely = np.log(cost[best]) < min(np.log(cost[one]) for one in tried) + excess
     return best if likely and cost[best] < MOST_COST else None
 
