@@ -152,7 +152,7 @@ def suspected_image(found: Sequence[Attempt]) -> Image | None:
     if set(images) <= set(tried):
         return None
     costs = image_costs(pair.source, pair.target, pair.simplified, images)
-    cost = dict(zip(images, costs, strict=True))
+    cost = dict(zip(images, np.maximum(costs, TINY), strict=True))
     best = min((one for one in images if one not in tried), key=lambda one: cost[one])
     excess = -LEAST_GAIN if best.turned or explained else MOST_EXCESS
     likely = np.log(cost[best]) < min(np.log(cost[one]) for one in tried) + excess
