@@ -17,6 +17,7 @@
 | W217 | boundary loops |
 | W218 | Euler characteristic and genus |
 | W219 | different vertices at the same position |
+| W229 | vertices on open edges that they are no ends of: T-junctions |
 """
 
 from __future__ import annotations
@@ -34,6 +35,7 @@ from geodesics.one_ring import one_ring_areas, one_ring_curvature
 from geodesics.topology.components import boundary_vertices, vertex_components
 from geodesics.topology.edges import corner_fans, degenerate_faces, edges
 from geodesics.topology.invariants import invariants
+from geodesics.topology.junctions import junctions
 from geodesics.topology.orientation import orientation
 
 __all__ = ["check", "flat_faces", "repeated_faces", "unreferenced_vertices"]
@@ -48,6 +50,7 @@ REMEDIES = {
     **dict.fromkeys(("W201", "W202", "W204", "W215"), ""),
     "W203": "--remesh",
     "W219": "--weld",
+    "W229": "--sew",
     **dict.fromkeys(("W213", "W214"), "--cut"),
     "W216": "--largest",
     "W217": "--fill-holes",
@@ -110,10 +113,13 @@ def _manifold(mesh: Mesh) -> Iterable[Note]:
 
 def _vertices(mesh: Mesh) -> Iterable[Note]:
     yield from _warn("W215", unreferenced_vertices(mesh), "{} vertices are on no face")
-    _, first = np.unique(mesh.vertices, axis=0, return_index=True)
+    _, first, place = np.unique(mesh.vertices, axis=0, return_index=True, return_inverse=True)
     repeated = np.ones(mesh.n_vertices, dtype=bool)
     repeated[first] = False
     yield from _warn("W219", repeated, "{} vertices are at the position of an earlier one")
+    on_edge = np.zeros(mesh.n_vertices, dtype=bool)
+    on_edge[junctions(Mesh(mesh.vertices, first[place.reshape(-1)][mesh.faces])).vertex] = True
+    yield from _warn("W229", on_edge, "{} vertices lie on open edges that they are no ends of (T-junctions)")
     distance = np.linalg.norm(mesh.vertices - np.median(mesh.vertices, axis=0), axis=1)
     yield from _warn("W209", distance > 20 * np.median(distance), "{} vertices are far away from all others")
 

@@ -12,7 +12,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from geodesics import Mesh, embedded
-from geodesics.arrays import Floats, Integers
+from geodesics.arrays import Bools, Floats, Integers
+from geodesics.topology.edges import edge_ends, edge_keys
 
 FINS = 26  # as many edges of three faces as a published camel has
 PARTS = 200  # floating, as in a segmented volume
@@ -73,6 +74,23 @@ def charts(mesh: Mesh, rng: np.random.Generator) -> Mesh:
     return _parted(mesh, cKDTree(mesh.vertices[seeds]).query(mesh.vertices[mesh.faces].mean(axis=1))[1])
 
 
+def t_junctions(mesh: Mesh, _: np.random.Generator) -> Mesh:
+    """The half of the faces in front is split in four; the edges of others that they meet are not."""
+    front = mesh.vertices[mesh.faces].mean(axis=1)[:, 0]
+    return split_in_four(mesh, front > np.median(front))
+
+
+def split_in_four(mesh: Mesh, chosen: Bools) -> Mesh:
+    """With a vertex in the middle of each edge of the faces (m,) that are chosen, which come last."""
+    a, b, c = mesh.faces[chosen].T
+    n = mesh.n_vertices
+    keys, name = np.unique(edge_keys(np.array([a, b, c]), np.array([b, c, a]), n), return_inverse=True)
+    ab, bc, ca = n + name.reshape(3, -1)
+    inner = np.concatenate([np.stack(one, axis=1) for one in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))])
+    places = np.vstack([mesh.vertices, mesh.vertices[edge_ends(keys, n)].mean(axis=1)])
+    return Mesh(places, np.vstack([mesh.faces[~chosen], inner]))
+
+
 def floating(mesh: Mesh, rng: np.random.Generator) -> Mesh:
     """Two hundred small tetrahedra around and in the body."""
     where = mesh.vertices[rng.integers(mesh.n_vertices, size=PARTS)]
@@ -104,6 +122,7 @@ FAULTS: tuple[Callable[[Mesh, np.random.Generator], Mesh], ...] = (
     turned_faces,
     unwelded,
     charts,
+    t_junctions,
     floating,
     everything,
 )

@@ -23,13 +23,14 @@ from geodesics.repair.clustering import clustered
 from geodesics.repair.repairing import Repaired, inverse_index, repair
 from geodesics.repair.splitting import split
 from geodesics.repair.triangulation import flip_towards_delaunay
-from geodesics.topology.components import boundary_vertices
+from geodesics.topology.components import boundary_vertices, component_areas
 from geodesics.topology.edges import edges, proper_faces
 
 # Times the faces wanted, and faces at the least, that a large mesh is first brought to: both set by hand, so that
 # meshes of fewer than 40,000 vertices are copied as they always were.
 BEGUN = 4
 FEWEST_BEGUN = 40_000
+MOST_LOST = 0.2  # share of a part that may come off it where it is cut apart; set by hand: published parts lose 0.12
 _one_at_a_time = threading.Lock()  # fast_simplification keeps its mesh in variables that all threads share
 
 
@@ -96,8 +97,8 @@ def decimated(mesh: Mesh, n_faces: int) -> Mesh | None:
     """A mesh of about `n_faces` faces, by collapsing edges; None if there are few more.
 
     The shortest edges go first; a large mesh loses most of its faces by quadrics before. Where more than two faces or
-    several fans meet, the coarse copy is cut apart first (see `split`). A surface with one side alone, and one whose
-    edges resist, is clustered instead.
+    several fans meet, the coarse copy is cut apart first (see `split`). A surface with one side alone, one whose edges
+    resist, and one of pieces that hang together in vertices alone, are clustered instead.
     """
     import igl
 
@@ -108,8 +109,9 @@ def decimated(mesh: Mesh, n_faces: int) -> Mesh | None:
     v, faces = _begun(mesh.vertices[used], faces, n_faces)
     if not _can_be_collapsed(faces):
         apart, _ = split(Mesh(v, faces))
+        lost = 1 - component_areas(apart).max() / component_areas(Mesh(v, faces)).max()
         v, faces = apart.vertices, np.asarray(apart.faces)
-        if not _can_be_collapsed(faces):
+        if lost > MOST_LOST or not _can_be_collapsed(faces):
             return _clustered_and_cleaned(mesh, n_faces)
     v, f, *_ = igl.decimate(np.ascontiguousarray(v), faces, n_faces)
     if len(f) == 0 or len(f) > 2 * n_faces:

@@ -14,9 +14,11 @@ from geodesics.arrays import Floats, Integers
 from geodesics.check import NAMED, repeated_faces
 from geodesics.errors import Note
 from geodesics.mesh import Mesh
+from geodesics.repair.sewing import sewn
 from geodesics.repair.splitting import split
 from geodesics.topology.components import largest_component
 from geodesics.topology.edges import degenerate_faces
+from geodesics.topology.junctions import junctions
 from geodesics.topology.orientation import orient_faces
 
 
@@ -47,7 +49,7 @@ class Repaired(NamedTuple):
     new_face: Integers
 
 
-def repair(mesh: Mesh, *, weld: bool = False, cut: bool = False, largest: bool = False) -> Repaired:
+def repair(mesh: Mesh, *, weld: bool = False, sew: bool = False, cut: bool = False, largest: bool = False) -> Repaired:
     """Drop repeated and degenerate faces and vertices on no face, and orient faces consistently, outward when closed.
 
     Vertices and faces that stay keep their order; positions do not change.
@@ -58,6 +60,9 @@ def repair(mesh: Mesh, *, weld: bool = False, cut: bool = False, largest: bool =
         The mesh, which is not changed.
     weld : bool
         Whether to join vertices at exactly equal positions, first of all.
+    sew : bool
+        Whether to split open edges at vertices that lie on them to within rounding, and whose edges run along them
+        (T-junctions); the first piece of a face keeps its place, the others come last.
     cut : bool
         Whether to take apart edges of more than two faces and vertices that join several fans of faces; copies of
         vertices come last.
@@ -94,7 +99,13 @@ def repair(mesh: Mesh, *, weld: bool = False, cut: bool = False, largest: bool =
         bad = find(Mesh(mesh.vertices, faces[kept]))
         _note(notes, code, kept[bad], sentence)
         kept = kept[~bad]
-    vertex, clean = _compact(np.arange(mesh.n_vertices), mesh.vertices, faces[kept])
+    faces = faces[kept]
+    if sew:
+        seamed = Mesh(mesh.vertices, faces)
+        _note(notes, "W229", np.unique(junctions(seamed).vertex), "vertices sewn to edges that they lie on")
+        faces, pieces, _ = sewn(seamed)
+        kept = kept[pieces]
+    vertex, clean = _compact(np.arange(mesh.n_vertices), mesh.vertices, faces)
     _note(notes, "W215", np.setdiff1d(of_vertex, vertex), "vertices on no face removed")
     if cut:
         apart, copies = split(clean)

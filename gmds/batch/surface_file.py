@@ -33,7 +33,7 @@ from gmds.spectral.sample_maps import TARGET_SAMPLES
 from gmds.surface.measured import EXPONENTS, Surface
 from gmds.surface.view import View
 
-VERSION = 4  # of the layout; a file of another is measured again
+VERSION = 5  # of the layout; a file of another is measured again
 
 COPY = "copy_"  # begins the names of what belongs to the copy
 
@@ -92,7 +92,8 @@ def _measured(surface: Surface) -> Arrays:
 def _clean_arrays(clean: CleanCopy) -> Arrays:
     given = {"given_vertices": clean.given.vertices, "given_faces": clean.given.faces}
     changes = np.array(clean.changes, dtype=np.str_)
-    return {**given, "clean_vertex": clean.vertex, "clean_face": clean.face, "clean_changes": changes}
+    found = {**given, "clean_vertex": clean.vertex, "clean_face": clean.face, "clean_changes": changes}
+    return found if clean.corners is None else found | {"clean_corners": clean.corners}
 
 
 def _clean(arrays: Arrays, mesh: Mesh) -> CleanCopy | None:
@@ -100,7 +101,7 @@ def _clean(arrays: Arrays, mesh: Mesh) -> CleanCopy | None:
         return None
     given = Mesh(arrays["given_vertices"], arrays["given_faces"])
     changes = tuple(str(one) for one in arrays["clean_changes"])
-    return CleanCopy(given, mesh, arrays["clean_vertex"], arrays["clean_face"], changes)
+    return CleanCopy(given, mesh, arrays["clean_vertex"], arrays["clean_face"], changes, arrays.get("clean_corners"))
 
 
 def _view_arrays(name: str, view: View) -> Arrays:

@@ -50,8 +50,9 @@ def on_given(answer: Correspondence, source: Surface, target: Surface) -> Corres
 
 def _carried(points: SurfacePoints, row: Integers, target: Surface) -> SurfacePoints:
     """Points of the original of the target, in these rows, as points of the mesh that was given."""
-    face = points.face if target.clean is None else target.clean.face[points.face]
-    return SurfacePoints(target.given, face[row], points.barycentric[row])
+    if target.clean is None:
+        return SurfacePoints(target.given, points.face[row], points.barycentric[row])
+    return target.clean.on_given(points[row])
 
 
 def cleaning_notes(source: Surface, target: Surface) -> list[Note]:

@@ -10,10 +10,12 @@ from typing import Any
 import numpy as np
 
 from geodesics import SurfacePoints
-from geodesics.arrays import Integers
+from geodesics.arrays import Floats, Integers
+from geodesics.closest import closest_on_triangles
 from geodesics.errors import Note
+from geodesics.io.precision import median_edge
 from geodesics.repair.repairing import inverse_index
-from geodesics.topology.components import component_areas
+from geodesics.topology.components import boundary_vertices, component_areas
 from gmds.correspondence import Correspondence
 from gmds.landmarks.placed import PlacedLandmarks
 from gmds.maps.point_map import MatchStatus
@@ -22,6 +24,11 @@ from gmds.matching.clean_copies import cleaning_notes, on_given
 from gmds.surface.measured import Surface
 
 Report = Callable[[str, float], None]
+
+# A mesh falls apart where pieces that are too small to be matched have more than this share of its area, or where most
+# of the boundary of a body is nearer to others than half an edge. Set by hand.
+MOST_SMALL = 0.1
+BESIDE = 0.5
 
 
 def match_bodies(
@@ -62,7 +69,7 @@ def incomplete(status: MatchStatus) -> MatchStatus:
 
 
 def beyond(bodies: tuple[Sequence[Body], Sequence[Body]], whole: tuple[Surface, Surface]) -> list[Note]:
-    """The notes on bodies that no partner is looked for: those beyond the largest, and those of too few vertices."""
+    """The notes on bodies that no partner is looked for: beyond the largest, of too few vertices, or small but many."""
     notes = []
     for found, surface, name in zip(bodies, whole, ("source", "target"), strict=True):
         area = component_areas(surface.original)
@@ -73,6 +80,13 @@ def beyond(bodies: tuple[Sequence[Body], Sequence[Body]], whole: tuple[Surface, 
                 f"{MOST_BODIES} largest of enough vertices are: split the mesh, and match the pieces"
             )
             notes.append(Note("W305", "warning", message, (), count - len(found)))
+        small = area < BODY * area.max()
+        if (share := area[small].sum() / area.sum()) > MOST_SMALL:
+            message = (
+                f"the {name} falls apart into pieces: {int(small.sum())} that are too small to be matched have "
+                f"{share:.0%} of its area; join them, and match again"
+            )
+            notes.append(Note("W305", "warning", message, (), int(small.sum())))
     return notes
 
 
@@ -85,9 +99,25 @@ def _left_out(bodies: Sequence[Body], alone: Sequence[int], name: str) -> list[N
     rows = "its vertices are not valid" if name == "source" else "nothing is sent there"
     message = (
         f"{len(alone)} of {len(bodies)} bodies of the {name} ({share:.0%} of their area, at vertices "
-        f"{', '.join(map(str, first))}) have no partner in the other mesh: {rows}"
+        f"{', '.join(map(str, first))}) have no partner in the other mesh: {rows}{_torn(bodies, alone)}"
     )
     return [Note("W305", "warning", message, first, len(alone))]
+
+
+def _torn(bodies: Sequence[Body], alone: Sequence[int]) -> str:
+    """What is said where bodies that are left out lie along others: the mesh may be one body in pieces."""
+    mesh = bodies[0].surface.original
+    gaps = []
+    for i in alone:
+        others = np.vstack([one.surface.original.faces for j, one in enumerate(bodies) if j != i])
+        ends = mesh.vertices[boundary_vertices(bodies[i].surface.original)]
+        gaps.append(closest_on_triangles(ends, mesh.vertices, others)[2])
+    gap = np.concatenate(gaps)
+    beside = gap < BESIDE * median_edge(mesh)
+    if not len(gap) or beside.mean() < BESIDE:
+        return ""
+    share = gap[beside].max() / float(np.ptp(mesh.vertices[np.unique(mesh.faces)], axis=0).max())
+    return f"; they lie along the others, at most {share:.1g} of the extent away: if that is a tear, join them"
 
 
 def _landmarks(
@@ -95,18 +125,19 @@ def _landmarks(
 ) -> PlacedLandmarks | None:
     """The landmarks that lie on both bodies; None where none does."""
     sides = placed.on_source, placed.on_target
-    rows = [_faces(*one) for one in zip(sides, pair, whole, strict=True)]
-    both = np.flatnonzero((rows[0] >= 0) & (rows[1] >= 0))
+    found = [_on_body(*one) for one in zip(sides, pair, whole, strict=True)]
+    both = np.flatnonzero((found[0][0] >= 0) & (found[1][0] >= 0))
     if not len(both):
         return None
     halves = [
-        SurfacePoints(body.surface.original, row[both], side.barycentric[both])
-        for side, body, row in zip(sides, pair, rows, strict=True)
+        SurfacePoints(body.surface.original, face[both], weights[both])
+        for body, (face, weights) in zip(pair, found, strict=True)
     ]
     return PlacedLandmarks(halves[0], halves[1], placed.tolerance[both], told=False)
 
 
-def _faces(points: SurfacePoints, body: Body, whole: Surface) -> Integers:
-    """The faces of a body on which points of the mesh that was given lie; -1 for others."""
-    given = body.faces if whole.clean is None else whole.clean.face[body.faces]
-    return inverse_index(given, whole.given.n_faces)[points.face]
+def _on_body(points: SurfacePoints, body: Body, whole: Surface) -> tuple[Integers, Floats]:
+    """Faces (p,) of a body, -1 for others, and coordinates (p, 3) in them, of points of the mesh that was given."""
+    face, weights = (points.face, points.barycentric) if whole.clean is None else whole.clean.of_given(points)
+    row = inverse_index(body.faces, whole.original.n_faces)
+    return np.where(face >= 0, row[face], -1), weights

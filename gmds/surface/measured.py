@@ -127,7 +127,8 @@ def measure(mesh: Mesh, *, reflected: bool = False) -> Surface:
     ----------
     mesh : Mesh
         Any surface; parts that do not hang together with the largest are left out. One that has seams along which
-        vertices are doubled, or is no manifold, is measured as a clean copy (see `geodesics.repair.cleaning`).
+        vertices are doubled or lie on edges, or is no manifold, is measured as a clean copy (see
+        `geodesics.repair.cleaning`).
     reflected : bool
         Whether its mirror image is meant.
 

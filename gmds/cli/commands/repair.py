@@ -25,6 +25,7 @@ FILE = click.Path(path_type=Path)
 )
 @click.option("--maps", type=OutputFile(), help="Write the old index of every new vertex and face, and back (.npz).")
 @click.option("--weld", is_flag=True, help="Join vertices at exactly equal positions.")
+@click.option("--sew", is_flag=True, help="Split open edges at vertices that lie on them (T-junctions).")
 @click.option(
     "--cut", is_flag=True, help="Take apart edges of more than two faces, and vertices that join several fans."
 )
@@ -61,7 +62,7 @@ def command(mesh: Path, output: Path, maps: Path | None, as_json: bool, **steps:
     if maps is not None and steps["remesh"] is not None:
         raise click.UsageError("--remesh makes every vertex new, so there are no --maps to write")
     given, notes = read_with_notes(mesh)
-    found = repair(given, weld=steps["weld"], cut=steps["cut"], largest=steps["largest"])
+    found = repair(given, weld=steps["weld"], sew=steps["sew"], cut=steps["cut"], largest=steps["largest"])
     found = _with_new_faces(found, steps["fill_holes"], steps["decimate"])
     better = found.mesh if steps["remesh"] is None else remesh(found.mesh, steps["remesh"])
     better = Mesh(better.vertices, better.faces[:, [0, 2, 1]]) if steps["turn"] else better

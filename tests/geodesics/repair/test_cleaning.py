@@ -18,6 +18,13 @@ def sphere() -> Mesh:
     return shapes.icosphere(3)
 
 
+def icosahedron() -> np.ndarray:
+    """Directions (20, 3) of the middles of its faces."""
+    coarse = shapes.icosphere(0)
+    middle = coarse.vertices[coarse.faces].mean(axis=1)
+    return np.asarray(middle / np.linalg.norm(middle, axis=1, keepdims=True))
+
+
 @pytest.mark.parametrize(
     "mesh",
     [shapes.icosphere(2), shapes.rectangle(6, 6), shapes.joined(shapes.icosphere(1), shapes.icosphere(1))],
@@ -52,7 +59,28 @@ def test_faces_lie_where_the_given_ones_do_corner_by_corner(fault: object) -> No
     mesh = fault(sphere(), np.random.default_rng(1))  # type: ignore[operator]
     copy = cleaned(mesh)
     if copy is not None:
-        assert np.array_equal(copy.mesh.vertices[copy.mesh.faces], mesh.vertices[mesh.faces[copy.face]])
+        here, there = copy.mesh.vertices[copy.mesh.faces], mesh.vertices[mesh.faces[copy.face]]
+        split = np.zeros(copy.mesh.n_faces, dtype=bool)
+        if copy.corners is not None:
+            split = (copy.corners != np.eye(3)).any(axis=(1, 2))
+            assert np.allclose(here, np.einsum("mij,mjk->mik", copy.corners, there), rtol=0, atol=1e-15)
+        assert np.array_equal(here[~split], there[~split]) and split.any() == (fault is spoiled.t_junctions)
+
+
+def test_patches_that_meet_in_corners_alone_are_no_small_pieces() -> None:
+    mesh = sphere()
+    patch = np.argmax(mesh.vertices[mesh.faces].mean(axis=1) @ icosahedron().T, axis=1)  # 20 of a twentieth each
+    corner = np.array([len(np.unique(patch[(mesh.faces == v).any(axis=1)])) > 2 for v in range(mesh.n_vertices)])
+    key = np.where(corner[mesh.faces], mesh.faces, mesh.faces + mesh.n_vertices * (1 + patch[:, None]))
+    _, first, name = np.unique(key, return_index=True, return_inverse=True)
+    torn = Mesh(1.0 * mesh.vertices[mesh.faces.ravel()[first]], name.reshape(-1, 3))
+    shrunk = torn.vertices.copy()
+    for one in range(20):  # towards their middle, so that they cannot be welded
+        inside = np.setdiff1d(torn.faces[patch == one], torn.faces[patch != one])
+        shrunk[inside] += 0.02 * (icosahedron()[one] - shrunk[inside])
+    copy = cleaned(Mesh(shrunk, torn.faces))
+    assert copy is not None and copy.mesh.n_faces == mesh.n_faces
+    assert invariants(copy.mesh).components == 1
 
 
 def test_corners_that_differ_by_rounding_are_welded_and_near_ones_are_not() -> None:

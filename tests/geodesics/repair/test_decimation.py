@@ -13,6 +13,7 @@ from geodesics.closest import closest_on_triangles
 from geodesics.repair.decimation import FEWEST_BEGUN, decimated
 from geodesics.repair.splitting import several_fans
 from geodesics.threads import side_by_side
+from geodesics.topology.components import component_areas
 from geodesics.topology.edges import edges
 
 
@@ -59,6 +60,22 @@ def test_a_large_mesh_that_is_no_manifold_is_cut_apart() -> None:
     assert coarse is not None
     assert coarse.n_faces <= 10_000
     assert (edges(coarse).n_faces <= 2).all()
+
+
+def test_halves_that_hang_together_in_vertices_alone_are_both_kept() -> None:
+    """As where T-junctions are too far off to be sewn: every other vertex of a ring is shared."""
+    mesh = shapes.bumpy_sphere(4)
+    front = mesh.vertices[mesh.faces].mean(axis=1)[:, 0] > 0
+    ring = np.intersect1d(mesh.faces[front], mesh.faces[~front])
+    angle = np.argsort(np.arctan2(mesh.vertices[ring, 1], mesh.vertices[ring, 2]))
+    doubled = ring[angle][::2]
+    other = np.arange(mesh.n_vertices)
+    other[doubled] = mesh.n_vertices + np.arange(len(doubled))
+    vertices = np.vstack([mesh.vertices, mesh.vertices[doubled] * 1.001])
+    torn = Mesh(vertices, np.where(front[:, None], other[mesh.faces], mesh.faces))
+    coarse = decimated(torn, 1_000)
+    assert coarse is not None and coarse.n_faces <= 1_250
+    assert component_areas(coarse).max() > 0.9 * component_areas(torn).max()
 
 
 def test_a_regular_grid_does_not_fold() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import generated_shapes as shapes
 import numpy as np
 from matched_shapes import bumpy
 
@@ -9,7 +10,7 @@ import gmds
 from geodesics import Mesh
 from gmds.maps.point_map import MatchStatus
 from gmds.matching.bodies import bodies_of
-from gmds.matching.several_bodies import beyond, incomplete
+from gmds.matching.several_bodies import _left_out, beyond, incomplete
 from gmds.shapes import quadruped
 from gmds.surface.measured import measure
 
@@ -88,3 +89,31 @@ def test_a_body_of_too_few_vertices_is_told() -> None:
     answer = gmds.match(joined(bumpy(), sheet), bumpy(), n_samples=SAMPLES)
     assert answer.status is MatchStatus.INCOMPLETE and not answer.valid[-3:].any() and answer.valid[:-3].all()
     assert any(note.startswith("W305: 1 of 2 bodies of the source were not looked at") for note in answer.meta["notes"])
+
+
+def torn(mesh: Mesh, gap: float) -> Mesh:
+    """In two, the front moved away by that share of the extent."""
+    front = mesh.vertices[mesh.faces].mean(axis=1)[:, 0] > 0
+    halves = []
+    for side in (~front, front):
+        used, faces = np.unique(mesh.faces[side], return_inverse=True)
+        halves.append(Mesh(mesh.vertices[used], faces.reshape(-1, 3)))
+    return joined(halves[0], moved(halves[1], (gap * np.ptp(mesh.vertices, axis=0).max(), 0, 0)))
+
+
+def test_a_half_that_is_torn_off_is_told_to_lie_along_the_other() -> None:
+    bodies = bodies_of(measure(torn(bumpy(), 1e-3)))
+    (told,) = _left_out(bodies, [1], "target")
+    assert told.code == "W305" and "at most 0.001 of the extent away: if that is a tear, join them" in told.message
+    (told,) = _left_out(bodies_of(measure(torn(bumpy(), 0.5))), [1], "target")
+    assert "tear" not in told.message
+
+
+def test_many_small_pieces_are_told_where_they_are_much_of_the_surface() -> None:
+    mesh = bumpy()
+    crumbs = [moved(shapes.icosphere(0), 0.06 * i + 3.0, 0.1) for i in range(20)]
+    for count, few in ((3, True), (20, False)):
+        surface = measure(joined(mesh, *crumbs[:count]))
+        told = beyond((bodies_of(surface),) * 2, (surface, measure(mesh)))
+        assert (told == []) is few
+        assert few or "falls apart into pieces: 20 that are too small" in told[0].message
