@@ -21,7 +21,7 @@ from geodesics.points import SurfacePoints
 from geodesics.repair.cleaning import cleaned
 from geodesics.repair.clustering import clustered
 from geodesics.repair.repairing import Repaired, inverse_index, repair
-from geodesics.repair.splitting import split
+from geodesics.repair.splitting import several_fans, split
 from geodesics.repair.triangulation import flip_towards_delaunay
 from geodesics.topology.components import boundary_vertices, component_areas
 from geodesics.topology.edges import edges, proper_faces
@@ -52,7 +52,7 @@ def decimate(mesh: Mesh, n_faces: int) -> Repaired:
     Raises
     ------
     NotManifold
-        E110 for edges of more than two faces.
+        E110 for edges of more than two faces, and for vertices of several fans of faces.
     ValueError
         When `n_faces` is not from 4 to the number of faces.
 
@@ -73,6 +73,10 @@ def decimate(mesh: Mesh, n_faces: int) -> Repaired:
     center, size = center_and_size(start.mesh)
     v = (start.mesh.vertices - center) / size  # a unit-sized copy: quadrics do not underflow at any scale
     u, g, face, vertex = igl.qslim(v, start.mesh.faces.astype(np.int32), int(n_faces), False)
+    if not len(g):  # as libigl has it, where it finds that vertices are no manifold
+        fans = np.flatnonzero(several_fans(start.mesh))
+        where = start.vertex[fans[:1]].tolist()
+        raise NotManifold(f"{len(fans)} vertices join several fans of faces, first {where}; cut the mesh apart (--cut)")
     vertex, face = start.vertex[vertex], start.face[face]
     back = inverse_index(vertex, mesh.n_vertices), inverse_index(face, mesh.n_faces)
     return Repaired(Mesh(u * size + center, g), vertex, face, start.notes, *back)

@@ -106,6 +106,10 @@ def test_decimation_refuses_what_it_cannot_do() -> None:
     branch = Mesh(np.vstack([mesh.vertices, [3, 0, 0]]), np.vstack([mesh.faces, [*mesh.faces[0, :2], 42]]))
     with pytest.raises(MeshError, match="E110"):
         decimate(branch, 20)
+    fold = Mesh(rectangle(6, 6).vertices, np.where(rectangle(6, 6).faces == 48, 0, rectangle(6, 6).faces))
+    with pytest.raises(MeshError, match=r"E110.*1 vertices join several fans of faces, first \[0\]; cut"):
+        decimate(fold, 30)
+    assert decimate(repair(fold, cut=True).mesh, 30).mesh.n_faces <= 30
     for count in (3, 0, -1, 81):
         with pytest.raises(ValueError, match="from 4 to the 80"):
             decimate(mesh, count)
