@@ -109,6 +109,12 @@ def test_a_half_that_is_torn_off_is_told_to_lie_along_the_other() -> None:
     assert "tear" not in told.message
 
 
+def test_a_map_to_one_of_two_halves_is_not_good() -> None:
+    answer = gmds.match(bumpy(), torn(bumpy(), 1e-3), n_samples=SAMPLES)
+    assert answer.status.rank >= MatchStatus.INCOMPLETE.rank
+    assert any("if that is a tear, join them" in note for note in answer.meta["notes"])
+
+
 def test_many_small_pieces_are_told_where_they_are_much_of_the_surface() -> None:
     mesh = bumpy()
     crumbs = [moved(shapes.icosphere(0), 0.06 * i + 3.0, 0.1) for i in range(20)]
