@@ -126,9 +126,8 @@ def measure(mesh: Mesh, *, reflected: bool = False) -> Surface:
     Parameters
     ----------
     mesh : Mesh
-        Any surface; parts that do not hang together with the largest are left out. One that has seams along which
-        vertices are doubled or lie on edges, or is no manifold, is measured as a clean copy (see
-        `geodesics.repair.cleaning`).
+        Any surface; parts that do not hang together with the largest are left out. One with vertices doubled or on
+        edges along seams, or that is no manifold, is measured as a clean copy (see `geodesics.repair.cleaning`).
     reflected : bool
         Whether its mirror image is meant.
 
