@@ -18,7 +18,9 @@ import gmds
 from geodesics import write_mesh
 from gmds.batch import consecutive, local_client, match_collection
 from gmds.batch import workers as engine
+from gmds.batch.starting import local_cluster
 
+dask = pytest.importorskip("dask", reason="the extra `batch` is not installed")
 pytest.importorskip("distributed", reason="the extra `batch` is not installed")
 
 CODE = (
@@ -109,7 +111,8 @@ def test_workers_that_are_killed_as_they_start_are_replaced(
 ) -> None:
     monkeypatch.setattr(engine, "LOST_AFTER", 3)
     monkeypatch.setattr(engine, "LOOK_EVERY", 0.5)
-    with local_client(1) as client:
+    monkeypatch.setattr(engine, "local_cluster", local_cluster)  # its workers are spawned: slowly enough to be killed
+    with dask.config.set({"distributed.worker.multiprocessing-method": "spawn"}), local_client(1) as client:
         (first,) = batches.worker_pids(client)
         os.kill(first, signal.SIGKILL)
         until = time.monotonic() + 60
