@@ -23,7 +23,8 @@ FIGURES = pytest.StashKey[str]()  # a folder of this run, which its workers shar
 
 def pytest_configure(config: pytest.Config) -> None:
     """From here on the built-in shapes are made once in a run, not once in every test."""
-    import figures_once  # after the limits above, which BLAS reads when it is loaded
+    import drawing_process  # after the limits above, which BLAS reads when it is loaded
+    import figures_once
     import forked_workers
 
     given = getattr(config, "workerinput", {}).get("figures")
@@ -34,7 +35,8 @@ def pytest_configure(config: pytest.Config) -> None:
     config.stash[FIGURES] = given
     patch = pytest.MonkeyPatch()
     figures_once.use(figures_once.kept_in(Path(given)), patch)
-    config.add_cleanup(forked_workers.use(patch))
+    for end in (forked_workers.use(patch), drawing_process.use(patch)):
+        config.add_cleanup(end)
     config.add_cleanup(patch.undo)
 
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+import drawing_process
 import numpy as np
 import pytest
 from generated_shapes import ellipsoid, icosphere, moved, rectangle, tetrahedron
@@ -69,7 +70,8 @@ def test_the_ending_names_the_format(answer: Correspondence, tmp_path: Path) -> 
     assert not list(tmp_path.glob("map*"))
 
 
-def test_both_renderers_draw_the_same(answer: Correspondence) -> None:
+def test_both_renderers_draw_the_same(answer: Correspondence, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(gmds.pictures.offscreen, "_run", drawing_process.ALONE)
     colours = position_colours(answer.target.vertices)
     labels = label_colours(np.arange(answer.target.n_vertices) // 50)
     view = broadside(answer.target)
