@@ -47,6 +47,7 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def client() -> Iterator[Any]:
     with gmds.batch.local_client(1) as client:
+        client.run(docs_files.remember)
         yield client
 
 
@@ -65,7 +66,7 @@ def as_a_reader(files: Path, client: Any, tmp_path: Path, monkeypatch: pytest.Mo
 
     monkeypatch.setattr("gmds.demo.files.write_files", copied)
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setitem(vars(gmds), "match", docs_files.match)
+    monkeypatch.setitem(vars(gmds), "match", docs_files.match_on_pages)
     monkeypatch.setattr("gmds.batch.local_client", lambda workers: contextlib.nullcontext(client))
     monkeypatch.setattr("gmds.shapes.demo_pair", docs_files.small_pair)
     monkeypatch.setattr("gmds.pictures.writing.offscreen", docs_files.small_pictures)
