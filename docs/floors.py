@@ -9,6 +9,7 @@ of its docstring; what it uses are its imports, without those that follow from o
 from __future__ import annotations
 
 import ast
+import functools
 import html
 import re
 import textwrap
@@ -28,6 +29,7 @@ LETTERS = 33  # in a line of a box
 COLOURS = ("#eef3fb", "#f6f1e7")  # of floors of gmds, and of geodesics
 
 
+@functools.cache
 def modules() -> dict[str, ast.Module]:
     """Every module of both packages, parsed, by its dotted name."""
     found = {}

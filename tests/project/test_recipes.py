@@ -69,27 +69,64 @@ def followed(recipe: str, folder: Path) -> list[str]:
     return touched
 
 
-def run(folder: Path, *command: str) -> str:
+def called(folder: Path, *command: str) -> subprocess.CompletedProcess[str]:
     environment = {**os.environ, "PYTHONPATH": str(folder)}
-    done = subprocess.run(
+    return subprocess.run(
         [sys.executable, "-m", *command], cwd=folder, env=environment, capture_output=True, text=True, check=False
     )
+
+
+def run(folder: Path, *command: str) -> str:
+    done = called(folder, *command)
     assert done.returncode == 0, f"{' '.join(command)}\n{done.stdout}\n{done.stderr}"
     return done.stdout
+
+
+def stems(kind: str, folder: Path) -> list[str]:
+    """The files of tests of a recipe, without their ending."""
+    given = [folder / path for path in TESTS[kind][0].split()]
+    return [path.stem for one in given for path in (sorted(one.glob("test_*.py")) if one.is_dir() else [one])]
+
+
+@pytest.fixture(scope="module")
+def followed_together(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, list[str]], str]:
+    """A copy in which every recipe is followed, the files of each, and what pytest says of the tests of all.
+
+    As no file is of two recipes, each is there as it would be alone; pytest takes longer to start than these tests do.
+    """
+    folder = copied(tmp_path_factory.mktemp("project"))
+    touched = {kind: followed(recipe, folder) for kind, recipe in RECIPES.items()}
+    paths = [path for files, _ in TESTS.values() for path in files.split()]
+    chosen = [" or ".join(stems(kind, folder)) for kind in TESTS]
+    words = [f"({files}) and ({words or files})" for files, (_, words) in zip(chosen, TESTS.values(), strict=True)]
+    command = ["pytest", "-vv", "-p", "no:cacheprovider", "-n", "0", *paths, "-k", " or ".join(words)]
+    done = called(folder, *command)
+    return folder, touched, done.stdout + done.stderr
 
 
 def test_every_recipe_is_tested() -> None:
     assert set(RECIPES) == set(TESTS)
 
 
+def test_no_file_is_of_two_recipes(followed_together: tuple[Path, dict[str, list[str]], str]) -> None:
+    touched = followed_together[1]
+    files = [path for paths in touched.values() for path in paths]
+    assert len(files) == len(set(files)) > 20
+    for kind, recipe in RECIPES.items():
+        others = [path for other, paths in touched.items() if other != kind for path in paths]
+        new = [path.removesuffix(".py") for path in others if not (ROOT / path).exists()]
+        assert new and not [path for path in new if path in recipe or path.replace("/", ".") in recipe], kind
+
+
 @pytest.mark.parametrize("kind", RECIPES)
-def test_a_recipe_works_as_it_stands(kind: str, tmp_path: Path) -> None:
-    folder = copied(tmp_path)
-    touched = followed(RECIPES[kind], folder)
-    run(folder, "ruff", "check", "--no-cache", *touched)
-    run(folder, "ruff", "format", "--no-cache", "--check", *touched)
-    files, words = TESTS[kind]
-    assert " passed" in run(folder, "pytest", "-p", "no:cacheprovider", "-n", "0", *files.split(), "-k", words)
+def test_a_recipe_works_as_it_stands(kind: str, followed_together: tuple[Path, dict[str, list[str]], str]) -> None:
+    folder, touched, told = followed_together
+    run(folder, "ruff", "check", "--no-cache", *touched[kind])
+    run(folder, "ruff", "format", "--no-cache", "--check", *touched[kind])
+    of_kind = "|".join(stems(kind, folder)), TESTS[kind][1].replace(" or ", "|")
+    results = re.findall(rf"^\S*(?:{of_kind[0]})\.py::\S*.* (PASSED|FAILED|ERROR)\b", told, re.MULTILINE)
+    assert results and set(results) == {"PASSED"} and " error" not in told.splitlines()[-1], told
+    assert re.search(rf"^\S*(?:{of_kind[0]})\.py\S*(?:{of_kind[1]}).* PASSED", told, re.MULTILINE), told
     if kind == "command":
         write_mesh(tetrahedron(), folder / "dog.ply")
         assert run(folder, "gmds", "area", "dog.ply").splitlines()[1].split() == ["area:", f"{tetrahedron().area:.4g}"]

@@ -88,8 +88,12 @@ print(json.dumps([broken, mid]))
     assert killed_in_the_middle > 10
 
 
-@pytest.mark.parametrize("limit", [0, 100, 2000])
-def test_b02_a_full_disk_leaves_the_old_file_and_no_other(tmp_path: Path, limit: int) -> None:
+LIMITS = (0, 100, 2000)  # bytes that a file may have
+
+
+@pytest.fixture(scope="module")
+def full_disks(tmp_path_factory: pytest.TempPathFactory) -> list[Any]:
+    """For each limit: the errors of all writers, and whether all files are as they were."""
     script = f"""
 import resource
 from gmds.landmarks.files import Landmarks, write_landmarks
@@ -97,17 +101,27 @@ marks = [Landmarks(tuple(f"mark {{i}}" for i in range(n)), np.full((n, 3), 0.1))
 write_landmarks(folder / "m.csv", marks[0])
 before = {{path.name: path.read_bytes() for path in folder.iterdir()}}
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-resource.setrlimit(resource.RLIMIT_FSIZE, ({limit}, {limit}))
-errors = []
-for name in [*NAMES, "m.csv"]:
-    try:
-        write_landmarks(folder / name, marks[1]) if name == "m.csv" else save(name, 1)
-    except OSError as error:
-        errors.append(error.errno)
-after = {{path.name: path.read_bytes() for path in folder.iterdir()}}
-print(json.dumps([errors, before == after]))
+_, most = resource.getrlimit(resource.RLIMIT_FSIZE)
+found = []
+for limit in {LIMITS}:
+    resource.setrlimit(resource.RLIMIT_FSIZE, (limit, most))
+    errors = []
+    for name in [*NAMES, "m.csv"]:
+        try:
+            write_landmarks(folder / name, marks[1]) if name == "m.csv" else save(name, 1)
+        except OSError as error:
+            errors.append(error.errno)
+    after = {{path.name: path.read_bytes() for path in folder.iterdir()}}
+    found.append([errors, before == after])
+print(json.dumps(found))
 """
-    errors, same = said(script, tmp_path)
+    told: list[Any] = said(script, tmp_path_factory.mktemp("full"))
+    return told
+
+
+@pytest.mark.parametrize("number", range(len(LIMITS)), ids=map(str, LIMITS))
+def test_b02_a_full_disk_leaves_the_old_file_and_no_other(full_disks: list[Any], number: int) -> None:
+    errors, same = full_disks[number]
     assert errors == [27] * 7 and same  # EFBIG
 
 
