@@ -103,7 +103,7 @@ def test_10_eigenfunctions_survive_local_scaling(run) -> None:
 
 
 def test_11_a_part_finds_its_place(run, tmp_path: Path) -> None:
-    text = run(11, 1000)  # a reader waits half a minute for 5,000
+    text = run(11, 500)  # a reader waits half a minute for 5,000
     here, there = (int(word) for word in re.search(r"(\d+) % of the part and (\d+) % of the whole", text).groups())
     assert here > 97 and 55 < there < 67
     assert float(re.search(r"mean error x100 ([\d.]+)", text).group(1)) < 2.5  # 0.6 when written
