@@ -45,14 +45,18 @@ class WeightedCorners:
 
 @dataclass(frozen=True, eq=False)
 class LandmarkConstraints:
-    """Corresponding points of two surfaces, k each, and the `tolerance` (k,) in root areas: 0 for hard landmarks."""
+    """Corresponding points of two surfaces, k each, and the `tolerance` (k,) in root areas: 0 for hard landmarks.
+
+    `rows` (k,): which of the landmarks that were given they are.
+    """
 
     source: WeightedCorners
     target: WeightedCorners
     tolerance: Floats
+    rows: Integers
 
     def __getitem__(self, rows: Integers | Bools) -> LandmarkConstraints:
-        return LandmarkConstraints(self.source[rows], self.target[rows], self.tolerance[rows])
+        return LandmarkConstraints(self.source[rows], self.target[rows], self.tolerance[rows], self.rows[rows])
 
     def __len__(self) -> int:
         return len(self.tolerance)

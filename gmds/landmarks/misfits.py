@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geodesics import SurfacePoints
+from geodesics import Mesh, SurfacePoints
 from geodesics.arrays import Floats, Integers
 from geodesics.one_ring import one_ring_areas
 from geodesics.topology.edge_paths import edge_distances
@@ -40,16 +40,31 @@ def misfits(answer: PointMap, on_source: SurfacePoints, on_target: SurfacePoints
     places, images, marks = side * answer.source.vertices, answer.points.positions, side * on_source.positions
     areas = np.where(answer.valid, one_ring_areas(answer.source), 0.0)
     unit, size = _root_areas(answer)
-    starts = on_source.nearest_vertices()
-    result = np.full(len(on_source), np.nan)
-    step = max(1, NUMBERS // len(places))
-    for start in range(0, len(result), step):
-        paths = edge_distances(answer.source, starts[start : start + step], AROUND[1] * unit)
-        for row, distance in enumerate(paths, start=start):
-            near = np.flatnonzero((distance > AROUND[0] * unit) & (distance < AROUND[1] * unit) & (areas > 0))
-            if len(near) >= FEWEST:
-                sent = _sent(places[near], images[near], areas[near], marks[row])
-                result[row] = np.linalg.norm(sent - on_target.positions[row]) / size
+    rings = surroundings(answer.source, on_source.nearest_vertices(), areas, unit)
+    sent = carried_along(rings, places, images, areas, marks)
+    return np.asarray(np.linalg.norm(sent - on_target.positions, axis=1) / size, dtype=np.float64)
+
+
+def surroundings(mesh: Mesh, starts: Integers, areas: Floats, unit: float) -> list[Integers]:
+    """What is around vertices (k,) of a mesh: the vertices at a distance `AROUND` from each, in `unit`, with area."""
+    rings: list[Integers] = []
+    step = max(1, NUMBERS // mesh.n_vertices)
+    for start in range(0, len(starts), step):
+        for distance in edge_distances(mesh, starts[start : start + step], AROUND[1] * unit):
+            near = (distance > AROUND[0] * unit) & (distance < AROUND[1] * unit) & (areas > 0)
+            rings.append(np.flatnonzero(near))
+    return rings
+
+
+def carried_along(rings: list[Integers], places: Floats, images: Floats, areas: Floats, marks: Floats) -> Floats:
+    """Where points (k, 3) go along with the vertices around each, moved from `places` (n, 3) to `images` (n, 3).
+
+    By the nearest similarity of these, weighted by their areas (n,); NaN where they are fewer than `FEWEST`.
+    """
+    result = np.full((len(rings), 3), np.nan)
+    for row, near in enumerate(rings):
+        if len(near) >= FEWEST:
+            result[row] = _sent(places[near], images[near], areas[near], marks[row])
     return result
 
 

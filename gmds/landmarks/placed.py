@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from geodesics import SurfacePoints
-from geodesics.arrays import Floats
+from geodesics.arrays import Bools, Floats, Integers
 from geodesics.errors import Note
 from geodesics.points import mixed
 from gmds.correspondence import Correspondence
@@ -25,7 +25,7 @@ class PlacedLandmarks:
     """Landmarks as points of both surfaces, k each, with the `tolerance` (k,) of each and `notes` on what was moved.
 
     `names` (k,) are those of the source, none where nobody named them. `told`: whether the map says which do not fit;
-    those of one body of several are told of with the whole.
+    those of one body of several are told of with the whole, where they are `rows` (k,).
     """
 
     on_source: SurfacePoints
@@ -34,12 +34,17 @@ class PlacedLandmarks:
     notes: tuple[Note, ...] = ()
     names: tuple[str, ...] = ()
     told: bool = True
+    rows: Integers | None = None
 
     @property
     def constraints(self) -> LandmarkConstraints:
         """As the parts of matching see them."""
         here, there = WeightedCorners.of(self.on_source), WeightedCorners.of(self.on_target)
-        return LandmarkConstraints(here, there, self.tolerance)
+        return LandmarkConstraints(here, there, self.tolerance, self._rows)
+
+    @property
+    def _rows(self) -> Integers:
+        return np.arange(len(self.tolerance)) if self.rows is None else self.rows
 
     def as_parameters(self) -> dict[str, Any]:
         """All of it, as JSON can carry it."""
@@ -53,8 +58,9 @@ class PlacedLandmarks:
     def applied(self, answer: Correspondence) -> tuple[Correspondence, list[Note]]:
         """The map with vertices that are hard landmarks sent exactly where they belong; what is inside a face stays.
 
-        Its parameters hold the landmarks. The notes name soft ones that the map misses by far (W302), and those that it
-        meets although what is around them lies elsewhere (W307): there it is torn, and then POOR.
+        Its parameters hold the landmarks. The notes name soft ones that were not followed (W302): the map misses them
+        by far, or the shapes contradict them, as its evidence says. And those that it meets although what is around
+        them lies elsewhere, where it is torn, or although a likelier map misses them (W307): it is then POOR.
         """
         hard = np.flatnonzero((self.tolerance <= 0) & (self.on_source.barycentric.max(axis=1) >= 1 - 1e-9))
         place = np.zeros(len(answer.points), dtype=np.int64)
@@ -63,10 +69,13 @@ class PlacedLandmarks:
         place[rows], fixed[rows] = hard, True
         points = mixed(fixed, self.on_target[place], answer.points)
         meta = {**answer.meta, "parameters": {**answer.meta.get("parameters", {}), "landmarks": self.as_parameters()}}
-        torn = self._misfits(answer) if self.told else []
+        pinned = replace(answer, points=points, valid=answer.valid | fixed, meta=meta)
+        if not self.told:
+            return pinned, []
+        followed = self._followed(answer)
+        torn = self._misfits(answer, followed)
         status = max(answer.status, MatchStatus.POOR, key=lambda one: one.rank) if torn else answer.status
-        pinned = replace(answer, points=points, valid=answer.valid | fixed, meta=meta, status=status)
-        return pinned, [*self._doubts(answer), *torn] if self.told else []
+        return replace(pinned, status=status), [*self._doubts(answer, followed), *torn]
 
     def _missed(self, answer: Correspondence) -> Floats:
         """By how many root areas of the target the map misses each (k,)."""
@@ -74,29 +83,45 @@ class PlacedLandmarks:
         missed = np.linalg.norm(sent - self.on_target.positions, axis=1) / np.sqrt(answer.target.area)
         return np.asarray(missed, dtype=np.float64)
 
-    def _doubts(self, answer: Correspondence) -> list[Note]:
-        missed = self._missed(answer)
-        wrong = np.flatnonzero((self.tolerance > 0) & (missed > DOUBTFUL * self.tolerance))
+    def _contradicted(self, answer: Correspondence) -> Floats:
+        """By how many root areas a far likelier map misses each (k,), as the evidence of the map says; else 0."""
+        by = np.zeros(len(self.tolerance))
+        for row, distance in answer.meta.get("evidence", {}).get("contradicted", ()):
+            by[row] = distance
+        return by
+
+    def _followed(self, answer: Correspondence) -> Bools:
+        """Whether each (k,) had a say to the end: hard ones, and soft ones that are not missed by far."""
+        given_up = (self._missed(answer) > DOUBTFUL * self.tolerance) | (self._contradicted(answer) > 0)
+        return (self.tolerance <= 0) | ~given_up
+
+    def _doubts(self, answer: Correspondence, followed: Bools) -> list[Note]:
+        missed, wrong = self._missed(answer), np.flatnonzero(~followed)
         if not len(wrong):
             return []
-        worst = int(wrong[missed[wrong].argmax()])
+        worst, *others = wrong[np.argsort(-missed[wrong], kind="stable")].tolist()
+        rest = f", then {named(others[: NAMED - 1], missed, self.names)}" if others else ""
+        rest += f" and {len(others) - NAMED + 1} more" if len(others) >= NAMED else ""
         called = self.names[worst] if self.names else f"number {worst}"
         message = (
-            f"{len(wrong)} soft landmarks are missed by more than {DOUBTFUL} tolerances; the worst, {called}, by "
-            f"{missed[worst]:.3f} square roots of the area; are they right?"
+            f"{len(wrong)} soft landmarks are not followed, as the shapes contradict them; the worst, {called}, by "
+            f"{missed[worst]:.3f} square roots of the area{rest}; are they right?"
         )
-        return [Note("W302", "warning", message, tuple(wrong.tolist()))]
+        return [Note("W302", "warning", message, tuple(wrong.tolist()), len(wrong))]
 
-    def _misfits(self, answer: Correspondence) -> list[Note]:
+    def _misfits(self, answer: Correspondence, followed: Bools) -> list[Note]:
+        """The note on those that do not go with the map around them, or with far likelier maps without them."""
         gaps = misfits(answer, self.on_source, self.on_target)
-        given_up = (self.tolerance > 0) & (self._missed(answer) > DOUBTFUL * self.tolerance)
-        wrong = np.flatnonzero((gaps > np.maximum(MISFIT, DOUBTFUL * self.tolerance)) & ~given_up)
+        torn = followed & (gaps > np.maximum(MISFIT, DOUBTFUL * self.tolerance))
+        by = np.where(torn, gaps, self._contradicted(answer))
+        wrong = np.flatnonzero(followed & (by > 0))
         if not len(wrong):
             return []
-        wrong = wrong[np.argsort(-gaps[wrong], kind="stable")]
+        wrong = wrong[np.argsort(-by[wrong], kind="stable")]
         rest = "" if len(wrong) <= NAMED else f", and {len(wrong) - NAMED} more"
         message = (
-            "landmarks do not fit the map around them, which would put them elsewhere, by square roots of the area: "
-            f"{named(wrong[:NAMED], gaps, self.names)}{rest}; the map is torn or bent to meet them; are they right?"
+            "landmarks do not fit the map around them, or the shapes, which would put them elsewhere, by square roots "
+            f"of the area: {named(wrong[:NAMED], by, self.names)}{rest}; the map is torn or bent to meet them; "
+            "are they right?"
         )
         return [Note("W307", "warning", message, tuple(wrong.tolist()), len(wrong))]

@@ -16,6 +16,7 @@ from gmds.landmarks.constraints import LandmarkConstraints
 from gmds.maps.point_map import Candidate, MatchStatus
 from gmds.matching.annealing import annealed
 from gmds.matching.candidates import make_candidate
+from gmds.matching.contradictions import believed
 from gmds.matching.given_distances import GivenDistances
 from gmds.matching.pair import SurfacePair
 from gmds.matching.part_answers import PartAnswer, Parts, likelier_part, maps_of_parts
@@ -80,10 +81,17 @@ class Attempt:
         """What is proposed for an image of the target."""
         pair = SurfacePair(source, image.of(target), wanted.landmarks, image.reverses)
         rounds, given = rounds_of(pair, wanted.distance)
+
+        def propose(pair: SurfacePair, count: int | None) -> Proposed:
+            return proposals(pair, rounds[:count], starts_of(pair))
+
+        def better(pair: SurfacePair, found: Proposed) -> list[Proposal]:
+            return found.maps if given is not None or found.isometric else improved(pair, found)
+
         found = proposals(pair, rounds, starts_of(pair), lambda share: wanted.report("proposing", 0.2 + 0.3 * share))
-        maps = found.maps if given is not None or found.isometric else improved(pair, found)
         pair = replace(pair, isometric=found.isometric)
-        likely, proposed = (likely_maps(some, pair.simplified[0].areas) for some in (maps, found.maps))
+        pair, *some = believed(pair, found, better(pair, found), propose, better)
+        likely, proposed = (likely_maps(maps, pair.simplified[0].areas) for maps in some)
         return cls(image, pair, likely, proposed, given, wanted)
 
     @cached_property
@@ -98,7 +106,7 @@ class Attempt:
     def neg_log_likelihood(self) -> float:
         """That of the likeliest map, whole or in part."""
         whole = [one.neg_log_likelihood for one in self.maps]
-        return min(whole + [one.neg_log_likelihood for one in self.of_parts])
+        return min(whole + [one.neg_log_likelihood for one in self.of_parts]) + self.pair.given_up
 
     @property
     def unexplained(self) -> float:
@@ -170,7 +178,7 @@ def own_symmetry(pair: SurfacePair) -> float:
 
 
 def _whole(attempt: Attempt) -> float:
-    return min(one.neg_log_likelihood for one in attempt.maps)
+    return min(one.neg_log_likelihood for one in attempt.maps) + attempt.pair.given_up
 
 
 def with_candidate(answer: Correspondence, found: Sequence[Attempt], other: Attempt, wanted: Wanted) -> Correspondence:

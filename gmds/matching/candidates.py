@@ -73,8 +73,9 @@ class MapCandidate:
         Its evidence, and how far the source is bent: distances from a similarity are Gaussian residuals too, of which
         the largest tell the most. Limbs bend, so where there are some it counts only that a map hardly bends anything.
         """
-        by = max(bent(self.pair.full[0], self.deformation.y), LEAST_BENT)
-        return self.evidence.neg_log_likelihood + float(np.log(by if self.pair.limbless else min(by, HARDLY_BENT)))
+        most = np.inf if self.pair.limbless else HARDLY_BENT
+        by = min(max(bent(self.pair.full[0], self.deformation.y), LEAST_BENT), most)
+        return self.evidence.neg_log_likelihood + float(np.log(by)) + self.pair.given_up
 
 
 def make_candidate(
@@ -119,8 +120,7 @@ def may_lose_extremities(pair: SurfacePair, proposal: Proposal) -> bool:
 def cheaper(pair: SurfacePair, deformation: Registered, images: Integers) -> tuple[Registered, Registered | None]:
     """That `deformation` or one from where the proposal sends vertices, `images` (n,), whichever takes less energy.
 
-    And with landmarks the other of both, if it takes hardly more: one that gave up a wrong landmark is none the worse
-    for it. Without them what saves hardly anything is not taken.
+    And with landmarks the other, if it takes hardly more. Without them what saves hardly anything is not taken.
     """
     if deformation.residuals.is_congruence:
         return deformation, None

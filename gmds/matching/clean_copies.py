@@ -23,7 +23,7 @@ def on_clean(landmarks: LandmarkConstraints, source: Surface, target: Surface) -
         side if surface.clean is None else WeightedCorners(surface.clean.vertex[side.corners], side.weights)
         for side, surface in ((landmarks.source, source), (landmarks.target, target))
     )
-    return LandmarkConstraints(ours, theirs, landmarks.tolerance).within(source.mesh.faces, target.mesh.faces)
+    return replace(landmarks, source=ours, target=theirs).within(source.mesh.faces, target.mesh.faces)
 
 
 def on_given(answer: Correspondence, source: Surface, target: Surface) -> Correspondence:

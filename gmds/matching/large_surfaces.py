@@ -69,7 +69,7 @@ class CoarseCopies:
                 (self.source, self.target), self.copies, self._places, (landmarks.source, landmarks.target), strict=True
             )
         )
-        return LandmarkConstraints(ours, theirs, landmarks.tolerance)
+        return replace(landmarks, source=ours, target=theirs)
 
     def prolonged(self, answer: Correspondence) -> Correspondence:
         """A map between the copies as one between the whole surfaces.

@@ -8,12 +8,12 @@
 | W225 | the mirror image of the target is far likelier: a right bone on a left one |
 | W226 | with its faces turned, or as a mirror image with faces turned, the target is far likelier: its inside is out |
 | W301 | landmarks that were given off the surface were moved to it, and how far |
-| W302 | soft landmarks that the map misses by far |
+| W302 | soft landmarks that are not followed, as the shapes contradict them: the map misses them by far |
 | W303 | a mesh has faults and was matched as a clean copy: what was welded, sewn, dropped and taken apart |
 | W304 | small parts of a mesh hang together with nothing: their vertices go along with the nearest and are not valid |
 | W305 | a body has no partner or was not looked at, or a mesh is in pieces; the status is INCOMPLETE or worse |
 | W306 | regions where the map is probably wrong, by its confidence: their shares, and a vertex in the midst of each |
-| W307 | landmarks that do not fit the map around them, and by how much; the status is POOR |
+| W307 | landmarks that do not fit the map around them, or that a likelier map misses, and by how much; then POOR |
 | W308 | a part was asked for by name, and none was found, or nothing is cut off the surface that was said to be one |
 """
 

@@ -29,6 +29,8 @@ class SurfacePair:
 
     `reflected`: whether the target is the mirror image of what was given, for maps that reverse orientation.
     `isometric`: whether it is known that parts keep their sizes, so that maps are refined in the metric of space.
+    `contradicted`: which of the landmarks given do not go with the shapes, and by how many root areas; `given_up`: what
+    those of them that are no longer among the `landmarks` cost, of negative log-likelihood.
     """
 
     source: Surface
@@ -36,6 +38,8 @@ class SurfacePair:
     landmarks: LandmarkConstraints | None = None
     reflected: bool = False
     isometric: bool = False
+    contradicted: tuple[tuple[int, float], ...] = ()
+    given_up: float = 0.0
 
     @cached_property
     def simplified(self) -> tuple[DeformableMesh, DeformableMesh]:

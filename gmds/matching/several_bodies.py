@@ -133,7 +133,7 @@ def _landmarks(
         SurfacePoints(body.surface.original, face[both], weights[both])
         for body, (face, weights) in zip(pair, found, strict=True)
     ]
-    return PlacedLandmarks(halves[0], halves[1], placed.tolerance[both], told=False)
+    return PlacedLandmarks(halves[0], halves[1], placed.tolerance[both], told=False, rows=both)
 
 
 def _on_body(points: SurfacePoints, body: Body, whole: Surface) -> tuple[Integers, Floats]:

@@ -33,9 +33,18 @@ class Anchors:
         """Where the points are (k, 3) when the vertices are at y (n, 3)."""
         return combination(self.weights, y[self.corners])
 
+    @property
+    def nearest_vertices(self) -> Integers:
+        """The heaviest corners (k,)."""
+        return self.corners[np.arange(len(self.corners)), self.weights.argmax(axis=1)]
+
+    def missed(self, y: Floats) -> Floats:
+        """The distances (k,) of the points from where they belong when the vertices are at y (n, 3)."""
+        return np.asarray(np.linalg.norm(self.positions(y) - self.ends, axis=1), dtype=np.float64)
+
     def neg_log_likelihood(self, y: Floats) -> float:
         """Minus the log-likelihood up to a constant: the sum of log sqrt(1 + (d / tolerance)^2)."""
-        missed = np.linalg.norm(self.positions(y) - self.ends, axis=1)
+        missed = self.missed(y)
         scale = np.where(self.tolerance > 0, self.tolerance, HIT)
         return float(np.log1p((missed / scale) ** 2).sum() / 2)
 
