@@ -28,8 +28,8 @@ from gmds.benchmarking.run import turned
 from gmds.correspondence import Correspondence
 from gmds.evaluation import geodesic_error, protocol_subset
 from gmds.matching import pipeline, rating
-from gmds.matching.attempts import with_candidate
 from gmds.matching.candidates import MapCandidate
+from gmds.matching.other_images import with_candidate
 from gmds.matching.rivals import Rivals
 from gmds.matching.signs import Signs, signs_of
 from gmds.shapes import quadruped

@@ -15,7 +15,7 @@ class JudgedMap(NamedTuple):
     """A map that was collected: signs (p, k), errors (p,) and whether points are `valid`, of points of the source.
 
     `undisputed` (p,), or 1: how likely its points are beside those of other maps (`gmds.matching.rivals`), and beside
-    those to an image of the target that fits far better (`gmds.matching.attempts.with_candidate`).
+    those to an image of the target that fits far better (`gmds.matching.other_images.with_candidate`).
     """
 
     name: str

@@ -47,11 +47,10 @@ SHARE = 0.1
 
 
 class Believed(NamedTuple):
-    """A pair with the landmarks that are believed, all maps of it, and those that were `proposed` at first."""
+    """A pair with the landmarks that are believed, and all maps of it."""
 
     pair: SurfacePair
     maps: list[Proposal]
-    proposed: list[Proposal]
 
 
 def believed(
@@ -68,26 +67,25 @@ def believed(
     given if no likelier map comes of that; else all maps are weighed with those landmarks that the likeliest meets.
     """
     if pair.landmarks is None:
-        return Believed(pair, maps, found.maps)
+        return Believed(pair, maps)
     given, alone = Given(pair, pair.landmarks), replace(pair, landmarks=None)
     best = min(maps, key=given.cost)
     off = float((given.off(best) / given.far).max())
     if off < SUSPECT and of_the_shapes(best) < DECISIVE:
-        return Believed(pair, maps, found.maps)
+        return Believed(pair, maps)
     if off < 1 and given.agrees(best, min(propose(alone, 1).maps, key=given.cost)):
-        return Believed(pair, maps, found.maps)
+        return Believed(pair, maps)
     without = propose(alone, None)
     pool = [*maps, *improved(alone, without)]
     likeliest = min(pool, key=given.cost)
     is_new, soft = likeliest not in maps, pair.landmarks.tolerance > 0
     wrong = given.missed(likeliest) > given.far
     if not is_new and not (wrong & soft).any():
-        return Believed(pair, maps, found.maps)
+        return Believed(pair, maps)
     less = given.without(wrong, likeliest, isometric=(without if is_new else found).isometric)
     if not soft.any():  # they are met whatever speaks against them
-        return Believed(less, maps, found.maps)
-    proposed = [*found.maps, *without.maps]
-    return Believed(less, [reweighed(one, less) for one in pool], [reweighed(one, less) for one in proposed])
+        return Believed(less, maps)
+    return Believed(less, [reweighed(one, less) for one in pool])
 
 
 @dataclass(frozen=True, eq=False)

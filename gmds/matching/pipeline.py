@@ -15,17 +15,17 @@ from geodesics.threads import on_one_blas_thread, side_by_side
 from gmds.correspondence import Correspondence
 from gmds.errors import SampleCountError
 from gmds.landmarks.checking import place_landmarks
-from gmds.matching.attempts import ASKED, Orientation, Wanted, attempted, likelier_image, with_candidate
+from gmds.matching.attempts import ASKED, Orientation, Wanted, attempted, finished
 from gmds.matching.bodies import bodies_of
 from gmds.matching.candidates import mirrored
 from gmds.matching.clean_copies import cleaning_notes, on_clean, on_given
 from gmds.matching.large_surfaces import CoarseCopies
 from gmds.matching.method import loss_of
 from gmds.matching.notes import doubt_notes, image_notes, match_notes, part_notes
+from gmds.matching.other_images import likelier_image, with_candidate
 from gmds.matching.part_answers import PARTS, Parts, likelier_part
 from gmds.matching.result import correspondence_of
 from gmds.matching.several_bodies import beyond, incomplete, match_bodies
-from gmds.matching.steps import embedded, registered
 from gmds.mds.losses import Loss
 from gmds.parts.handedness import Image
 from gmds.provenance import method_in_words
@@ -185,13 +185,10 @@ def _answered(
     if part is not None:
         answer = part.correspondence(meta)
     else:
-        how = wanted.loss, wanted.count
-        candidates = [one for way in tried for one in embedded(way.pair, way.maps, *how, way.given, wanted.report)]
-        candidates.sort(key=lambda candidate: candidate.neg_log_likelihood)
-        candidates = registered(candidates, wanted.report) if wanted.distance is None else candidates
+        candidates = tried[0].finished if len(tried) == 1 else finished(tried)
         answer = correspondence_of([*candidates, *mirrored(candidates[0])], meta)
     if other is not None and orientation == "preserve":
-        answer = with_candidate(answer, tried, other, wanted)
+        answer = with_candidate(answer, tried, other)
     return answer, None if other is None else other.image
 
 
