@@ -103,9 +103,11 @@ class PlacedLandmarks:
         rest = f", then {named(others[: NAMED - 1], missed, self.names)}" if others else ""
         rest += f" and {len(others) - NAMED + 1} more" if len(others) >= NAMED else ""
         called = self.names[worst] if self.names else f"number {worst}"
+        many = len(wrong) > 1
         message = (
-            f"{len(wrong)} soft landmarks are not followed, as the shapes contradict them; the worst, {called}, by "
-            f"{missed[worst]:.3f} square roots of the area{rest}; are they right?"
+            f"{len(wrong)} soft landmark{'s are' if many else ' is'} not followed, as the shapes contradict "
+            f"{'them; the worst' if many else 'it'}, {called}, by {missed[worst]:.3f} square roots of the area{rest}; "
+            f"{'are they' if many else 'is it'} right?"
         )
         return [Note("W302", "warning", message, tuple(wrong.tolist()), len(wrong))]
 

@@ -84,7 +84,7 @@ def test_a_wrong_soft_landmark_spoils_nothing_and_is_named() -> None:
     answer = matched(WRONG)
     assert error(answer) < error(matched()) + 0.1
     assert answer.status is MatchStatus.GOOD
-    assert note(answer, "W302: 1 soft landmarks are not followed") and "number 0, by 0." in note(answer, "W302")
+    assert note(answer, "W302: 1 soft landmark is not followed") and "number 0, by 0." in note(answer, "W302")
     assert [row for row, _ in answer.meta["evidence"]["contradicted"]] == [0]
 
 

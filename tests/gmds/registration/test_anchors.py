@@ -155,7 +155,7 @@ def test_a_wrong_soft_landmark_does_less_harm_than_a_hard_one() -> None:
 
 def test_a_soft_landmark_that_is_given_up_is_named() -> None:
     (note,) = (line for line in matched("wrong", 0.05).meta["notes"] if not line.startswith("W306"))
-    assert note.startswith("W302: 1 soft landmarks") and "number 4, by 0." in note
+    assert note.startswith("W302: 1 soft landmark") and "number 4, by 0." in note
     assert not [line for line in matched("right", 0.05).meta["notes"] if line.startswith("W302")]
 
 
