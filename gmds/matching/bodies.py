@@ -152,7 +152,7 @@ def _joined(maps: Sequence[tuple[tuple[Body, Body], Correspondence]], whole: tup
     worst = max((answer.status for _, answer in maps), key=lambda status: status.rank)
     notes = [note for _, answer in maps for note in answer.meta.get("notes", ())]
     wrong = [one for _, answer in maps for one in answer.meta.get("evidence", {}).get("contradicted", ())]
-    evidence = {"evidence": {**first.meta["evidence"], "contradicted": wrong}} if "evidence" in first.meta else {}
+    evidence = {"evidence": {**first.meta.get("evidence", {}), "contradicted": wrong}} if wrong else {}
     meta = {**first.meta, **evidence, "bodies": len(maps), "notes": list(dict.fromkeys(notes))}
     others = tuple(Candidate(there, one.stress, one.orientation) for there, one in zip(sent, candidates, strict=True))
     return replace(

@@ -45,8 +45,9 @@ def correspondence_of(placed: Sequence[MapCandidate], meta: Mapping[str, Any]) -
         **best.evidence.as_meta(),
         "margin": min(rivals.margin, MARGIN_OF_THE_ONLY),
         "laid_in_space": best.laid is not None,
-        "contradicted": [list(one) for one in best.pair.contradicted],
     }
+    if best.pair.contradicted:
+        evidence["contradicted"] = [list(one) for one in best.pair.contradicted]
     candidates = tuple(Candidate(original_points(e), e.evidence.stress, e.evidence.orientation) for e in placed[1:])
     confidence, valid = confidence_of(best, rivals), _valid(best)
     expected = expected_share(confidence, best.pair.full[0].areas, valid)
