@@ -21,7 +21,7 @@ from gmds.parts.handedness import AS_IT_IS, INSIDE_OUT, MIRRORED, Image, image_c
 # has no handedness. Else another image of the target is weighed where it fits without bending at such a cost at most,
 # and at a log cost above that of the target as it is by so much at most. What has limbs lies in another pose as its own
 # mirror image does: there the image has to cost less, by so much in the logarithm. Chosen on the development half of
-# benchmarks/results/mirrored.md, but for limbs: there bodies of TOSCA are less by up to 0.13, bones by 0.37 and more.
+# benchmarks/results/mirrored.md, but for limbs: of all whole bodies there it was 0.13 less at the most.
 SYMMETRIC = 0.6
 MOST_COST = 0.4
 MOST_EXCESS = 0.25
