@@ -13,9 +13,12 @@ from gmds.maps.point_map import Candidate, MatchStatus
 from gmds.matching.attempts import Attempt, Orientation, Wanted
 from gmds.matching.pair import SurfacePair
 from gmds.matching.part_answers import likelier_part
+from gmds.matching.proposals import likeliest, proposals
 from gmds.matching.rating import AMBIGUOUS_MARGIN
 from gmds.matching.result import correspondence_of
+from gmds.matching.steps import rounds_of, starts_of
 from gmds.parts.handedness import AS_IT_IS, INSIDE_OUT, MIRRORED, Image, image_costs
+from gmds.registration.residuals import Residuals
 
 # A surface whose own mirror image has this correlation of curvature with it at the least is as good as symmetric: it
 # has no handedness. Else another image of the target is weighed where it fits without bending at such a cost at most,
@@ -29,17 +32,30 @@ LESS_WITH_LIMBS = 0.3  # and where all normals would be the other way round
 # By how much it then has to be likelier, of maps that are finished where they are of wholes: as much as makes a map
 # AMBIGUOUS. Of mirrored teeth it was 0.97 and more but for two (0.02 and 0.55), of others below -0.5.
 FAR_LIKELIER = AMBIGUOUS_MARGIN
+# Of what has limbs, and lies on nothing without bending: how much more of the curvature the mirror image has to explain
+# in a first look, and of finished maps, as a difference of log-likelihood (benchmarks/results/notes.md, "Confidence").
+# Where the metric of space decides, only what is less symmetric than most bodies are is looked at.
+WORTH_A_LOOK = 0.2
+MORE_EXPLAINED = 0.7
+AS_BODIES_ARE = 0.75
 TINY = 1e-12  # a bound, so that a logarithm is finite
 
 
 def likelier_image(found: Sequence[Attempt], orientation: Orientation, wanted: Wanted) -> Attempt | None:
     """What is proposed for another image of the target, where that is far likelier than all that was `found`."""
-    image = None if orientation == "reverse" else suspected_image(found)
+    if orientation == "reverse":
+        return None
+    image = suspected_image(found)
+    by_shape = image is None and explains_more(found)
+    if by_shape:
+        image = MIRRORED
     if image is None:
         return None
     other = Attempt.at(found[0].pair.source, found[0].pair.target, image, wanted)
     if _whole(other) > min(map(_whole, found)):
         return None  # before parts are looked for
+    if by_shape and curvature_gain(found, other) < MORE_EXPLAINED:
+        return None
     return other if gain_of(found, other) > FAR_LIKELIER else None
 
 
@@ -73,6 +89,35 @@ def suspected_image(found: Sequence[Attempt]) -> Image | None:
     excess = MOST_EXCESS if pair.limbless and not best.turned else -LESS_WITH_LIMBS
     likely = np.log(cost[best]) < min(np.log(cost[one]) for one in tried) + excess
     return best if likely and cost[best] < MOST_COST else None
+
+
+def explains_more(found: Sequence[Attempt]) -> bool:
+    """Whether a first look at maps to the mirror image of a target with limbs explains more of its curvature.
+
+    A hand lies on its mirror image in no pose, and most of what is bent for that is where palm and back differ. Two poses
+    of a body, bent to one side and to the other, have the same curvature, however likelier their mirror images are.
+    """
+    pair, tried = found[0].pair, [one.image for one in found]
+    if pair.limbless or not pair.closed or MIRRORED in tried or (pair.isometric and own_symmetry(pair) > AS_BODIES_ARE):
+        return False
+    image = SurfacePair(pair.source, MIRRORED.of(pair.target), found[0].wanted.landmarks, MIRRORED.reverses)
+    rounds, _ = rounds_of(image, found[0].wanted.distance)
+    there = likeliest(proposals(image, rounds[:1], starts_of(image)).maps)
+    here = likeliest([one for attempt in found for one in attempt.maps])
+    gain = unexplained_curvature(here.residuals) - unexplained_curvature(there.residuals)
+    return here.neg_log_likelihood > there.neg_log_likelihood and gain > WORTH_A_LOOK
+
+
+def curvature_gain(found: Sequence[Attempt], other: Attempt) -> float:
+    """How much more of the curvature the likeliest finished map of another image explains than the likeliest `found`."""
+    ours = min((one.finished[0] for one in found), key=lambda one: one.neg_log_likelihood)
+    here, there = ((one.simplified, one.simplified_back, one.whole) for one in (ours.evidence, other.finished[0].evidence))
+    return unexplained_curvature(here) - unexplained_curvature(there)
+
+
+def unexplained_curvature(residuals: Sequence[Residuals]) -> float:
+    """The part of a negative log-likelihood that curvature accounts for."""
+    return sum(one.unexplained_curvature for one in residuals)
 
 
 def own_symmetry(pair: SurfacePair) -> float:

@@ -43,6 +43,11 @@ class Residuals:
         return float(sum(np.log(max(spread, LEAST)) for spread in self._of_the_fit))
 
     @property
+    def unexplained_curvature(self) -> float:
+        """The part of it that curvature accounts for."""
+        return float(sum(np.log(max(spread, LEAST)) for spread in self._of_the_fit[1:]))
+
+    @property
     def _of_the_fit(self) -> tuple[float, ...]:
         return (
             self.misfit_back,

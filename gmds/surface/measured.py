@@ -39,7 +39,8 @@ class Surface:
 
     `mesh` has the vertices of `original`, moved and scaled, and the faces `face_index` of it, the largest first; all of
     them `turned` inside out where that is meant. Where the mesh that was given has faults, `original` is its `clean`
-    copy.
+    copy. `mirror_of`: the surface of which this is the mirror image, which has the same metrics, so that its
+    eigenfunctions serve both.
     """
 
     original: Mesh
@@ -47,6 +48,7 @@ class Surface:
     face_index: Integers
     turned: bool = False
     clean: CleanCopy | None = None
+    mirror_of: Surface | None = None
 
     def __repr__(self) -> str:
         return f"Surface(unit area, {self.mesh!r})"
@@ -68,11 +70,15 @@ class Surface:
     @memoized
     def curved(self, exponent: float) -> View:
         """The surface in the metric |K|^a g, a the exponent."""
+        if self.mirror_of is not None:
+            return self.mirror_of.curved(exponent).on(self.mesh)
         return self.view(functools.partial(scale_invariant, exponent=exponent, smoothing=SMOOTHING))
 
     @cached_property
     def regular(self) -> View:
         """The surface in the metric of space."""
+        if self.mirror_of is not None:
+            return self.mirror_of.regular.on(self.mesh)
         return View.of(eigenpairs(embedded(self.mesh), self.count))
 
     @cached_property
@@ -105,7 +111,7 @@ class Surface:
     @cached_property
     def reflection(self) -> Surface:
         """The mirror image of the surface."""
-        return measured_as_it_is(self.original, reflected=True)
+        return replace(measured_as_it_is(self.original, reflected=True), mirror_of=self)
 
     @cached_property
     def inside_out(self) -> Surface:
