@@ -32,12 +32,12 @@ LESS_WITH_LIMBS = 0.3  # and where all normals would be the other way round
 # By how much it then has to be likelier, of maps that are finished where they are of wholes: as much as makes a map
 # AMBIGUOUS. Of mirrored teeth it was 0.97 and more but for two (0.02 and 0.55), of others below -0.5.
 FAR_LIKELIER = AMBIGUOUS_MARGIN
-# Of what has limbs, and lies on nothing without bending: how much more of the curvature the mirror image has to explain
-# in a first look, and of finished maps, as a difference of log-likelihood (benchmarks/results/notes.md, "Confidence").
-# Where the metric of space decides, only what is less symmetric than most bodies are is looked at.
+# Where bending may hide it, how much more of the curvature the mirror image has to explain in a first look, and by
+# finished maps, as a difference of log-likelihood; and the symmetry above which nothing is looked at where the metric
+# of space decides (benchmarks/results/notes.md, "Confidence": hands of two creatures of TOSCA, and bodies).
 WORTH_A_LOOK = 0.2
 MORE_EXPLAINED = 0.7
-AS_BODIES_ARE = 0.75
+AS_BODIES_ARE = 0.9
 TINY = 1e-12  # a bound, so that a logarithm is finite
 
 
@@ -46,15 +46,14 @@ def likelier_image(found: Sequence[Attempt], orientation: Orientation, wanted: W
     if orientation == "reverse":
         return None
     image = suspected_image(found)
-    by_shape = image is None and explains_more(found)
-    if by_shape:
+    if by_curvature := image is None and explains_more(found):
         image = MIRRORED
     if image is None:
         return None
     other = Attempt.at(found[0].pair.source, found[0].pair.target, image, wanted)
     if _whole(other) > min(map(_whole, found)):
         return None  # before parts are looked for
-    if by_shape and curvature_gain(found, other) < MORE_EXPLAINED:
+    if by_curvature and curvature_gain(found, other) < MORE_EXPLAINED:
         return None
     return other if gain_of(found, other) > FAR_LIKELIER else None
 
@@ -92,13 +91,13 @@ def suspected_image(found: Sequence[Attempt]) -> Image | None:
 
 
 def explains_more(found: Sequence[Attempt]) -> bool:
-    """Whether a first look at maps to the mirror image of a target with limbs explains more of its curvature.
+    """Whether the first maps to the mirror image of a closed target explain more of its curvature.
 
-    A hand lies on its mirror image in no pose, and most of what is bent for that is where palm and back differ. Two poses
-    of a body, bent to one side and to the other, have the same curvature, however likelier their mirror images are.
+    A left hand takes every pose of a right one but for what tells palm from back: their curvature. Two poses of a body,
+    bent to one side and to the other, have the same curvature, however likelier their mirror images are.
     """
     pair, tried = found[0].pair, [one.image for one in found]
-    if pair.limbless or not pair.closed or MIRRORED in tried or (pair.isometric and own_symmetry(pair) > AS_BODIES_ARE):
+    if not pair.closed or MIRRORED in tried or (pair.isometric and own_symmetry(pair) > AS_BODIES_ARE):
         return False
     image = SurfacePair(pair.source, MIRRORED.of(pair.target), found[0].wanted.landmarks, MIRRORED.reverses)
     rounds, _ = rounds_of(image, found[0].wanted.distance)

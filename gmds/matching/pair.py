@@ -95,7 +95,10 @@ class SurfacePair:
 @memoized
 def simplified(surface: Surface) -> DeformableMesh:
     """The surface with few faces."""
-    return DeformableMesh.simplified(surface)
+    other = surface.mirror_of
+    if other is None or surface.turned or surface.reflected == other.reflected:
+        return DeformableMesh.simplified(surface)
+    return simplified(other).mirrored
 
 
 @memoized

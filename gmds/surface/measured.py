@@ -121,6 +121,8 @@ class Surface:
     @cached_property
     def squashed_curvature(self) -> Floats:
         """Mean curvature (n,), squashed to [-1, 1] so that finger tips do not outvote the rest."""
+        if self.mirror_of is not None and not self.turned:
+            return self.mirror_of.squashed_curvature
         curvature = mean_curvature(self.mesh, DETAIL)
         typical = np.median(np.abs(curvature[self.regular.usable]))
         return np.tanh(curvature / typical) if typical > FLAT else np.zeros_like(curvature)
