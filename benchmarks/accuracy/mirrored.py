@@ -29,7 +29,7 @@ from geodesics.threads import on_one_blas_thread
 from gmds.files.table import read_table, write_table
 from gmds.matching.attempts import Wanted, attempted
 from gmds.matching.large_surfaces import CoarseCopies
-from gmds.matching.other_images import gain_of, likelier_image, own_symmetry, suspected_image
+from gmds.matching.other_images import gain_of, likelier_image, own_symmetry, rival_image, suspected_image
 from gmds.mds.losses import LeastSquares
 from gmds.surface.measured import Surface, measure
 
@@ -43,7 +43,20 @@ RIGHT_TO_LEFT = (
     "hand",
 )  # pairs of which one is a left, one a right specimen
 BODIES = ("faust_5k", "tosca_5k", "tosca_cross_5k", "shrec20")
-COLUMNS = ("pair", "group", "half", "mirrored", "told", "weighed", "symmetry", "gain", "test_seconds", "seconds")
+COLUMNS = (
+    "pair",
+    "group",
+    "half",
+    "mirrored",
+    "told",
+    "undecided",
+    "weighed",
+    "symmetry",
+    "gain",
+    "test_seconds",
+    "seconds",
+)
+KEYS = ("told", "undecided")
 
 
 class Case(NamedTuple):
@@ -98,6 +111,7 @@ def row(case: Case) -> dict[str, Any]:
         "half": case.half,
         "mirrored": case.mirrored,
         "told": other is not None,
+        "undecided": other is None and rival_image(tried, "preserve", wanted) is not None,
         "weighed": suspected is not None,
         "symmetry": f"{own_symmetry(tried[0].pair):.2f}",
         "gain": gain,
@@ -114,18 +128,29 @@ def _as_given(surface: Surface) -> Surface:
 def page(rows: Sequence[dict[str, Any]]) -> str:
     """The tables of both halves."""
     lines = ["# Mirrored specimens", "", "`python -m benchmarks.accuracy.mirrored`; the script says how.", ""]
-    names = ["group", "mirrored", "found", "not mirrored", "called mirrored", "weighed", "test, CPU s (median, most)"]
+    names = [
+        "group",
+        "mirrored",
+        "found",
+        "undecided",
+        "not mirrored",
+        "called mirrored",
+        "undecided",
+        "weighed",
+        "test, CPU s (median, most)",
+    ]
     for half in ("reporting", "development"):
         some = [one for one in rows if one["half"] == half]
         found = []
         for group in dict.fromkeys(one["group"] for one in some):
             of = [one for one in some if one["group"] == group]
             yes, no = ([one for one in of if str(one["mirrored"]) == word] for word in ("True", "False"))
-            told = [sum(str(one["told"]) == "True" for one in part) for part in (yes, no)]
+            told, open_ = ([sum(str(one[key]) == "True" for one in part) for part in (yes, no)] for key in KEYS)
             weighed = sum(str(one["weighed"]) == "True" for one in of)
             seconds = np.array([float(one["test_seconds"]) for one in of])
             spent = f"{np.median(seconds):.2f}, {seconds.max():.2f}"
-            found.append([group, len(yes), told[0], len(no), told[1], f"{weighed} of {len(of)}", spent])
+            counts = [len(yes), told[0], open_[0], len(no), told[1], open_[1]]
+            found.append([group, *counts, f"{weighed} of {len(of)}", spent])
         lines += [f"## {half.capitalize()} half", "", *table(names, found), ""]
     return "\n".join(lines)
 

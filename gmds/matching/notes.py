@@ -15,6 +15,7 @@
 | W306 | regions where the map is probably wrong, by its confidence: their shares, and a vertex in the midst of each |
 | W307 | landmarks that do not fit the map around them, or that a likelier map misses, and by how much; then POOR |
 | W308 | a part was asked for by name, and none was found, or nothing is cut off the surface that was said to be one |
+| W309 | the mirror image of the target explains its curvature better: another hand, or a body in a mirrored pose |
 """
 
 from __future__ import annotations
@@ -92,3 +93,13 @@ def image_notes(image: Image, *, taken: bool) -> list[Note]:
         return [Note(code, "info", f"{found}; the map goes to that")]
     told = f"the map is probably wrong; {advice}take orientation='auto' (--orientation auto)"
     return [Note(code, "warning", f"{found}; {told}, whose map is the first of the candidates")]
+
+
+def rival_note() -> Note:
+    """What is said of a match where the mirror image of the target explains its curvature better."""
+    message = (
+        "the mirror image of the target explains its curvature better: if one is a left and the other a right one, as "
+        "hands are, take orientation='reverse' (--orientation reverse), whose map is the first of the candidates; if "
+        "one is bent to the left and the other to the right, as bodies are, this map is right"
+    )
+    return Note("W309", "warning", message)

@@ -13,11 +13,11 @@ from gmds.maps.point_map import Candidate, MatchStatus
 from gmds.matching.attempts import Attempt, Orientation, Wanted
 from gmds.matching.pair import SurfacePair
 from gmds.matching.part_answers import likelier_part
-from gmds.matching.proposals import likeliest, proposals
+from gmds.matching.proposals import Proposal, likeliest, proposals
 from gmds.matching.rating import AMBIGUOUS_MARGIN
 from gmds.matching.result import correspondence_of
 from gmds.matching.steps import rounds_of, starts_of
-from gmds.parts.handedness import AS_IT_IS, INSIDE_OUT, MIRRORED, Image, image_costs
+from gmds.parts.handedness import AS_IT_IS, AXES, INSIDE_OUT, MIRRORED, Image, image_costs
 from gmds.registration.residuals import Residuals
 
 # A surface whose own mirror image has this correlation of curvature with it at the least is as good as symmetric: it
@@ -43,18 +43,26 @@ TINY = 1e-12  # a bound, so that a logarithm is finite
 
 def likelier_image(found: Sequence[Attempt], orientation: Orientation, wanted: Wanted) -> Attempt | None:
     """What is proposed for another image of the target, where that is far likelier than all that was `found`."""
-    if orientation == "reverse":
+    image = None if orientation == "reverse" else suspected_image(found)
+    return None if image is None else _far_likelier(found, image, wanted)
+
+
+def rival_image(found: Sequence[Attempt], orientation: Orientation, wanted: Wanted) -> Attempt | None:
+    """What is proposed for the mirror image of the target, where that may be meant although nothing says so.
+
+    A left hand takes every pose of a right one; what tells palm from back is their curvature. A body bent to the other
+    side has another curvature as well, where it is bent: either map may be the right one.
+    """
+    if orientation == "reverse" or not explains_more(found):
         return None
-    image = suspected_image(found)
-    if by_curvature := image is None and explains_more(found):
-        image = MIRRORED
-    if image is None:
-        return None
+    other = _far_likelier(found, MIRRORED, wanted)
+    return None if other is None or curvature_gain(found, other) < MORE_EXPLAINED else other
+
+
+def _far_likelier(found: Sequence[Attempt], image: Image, wanted: Wanted) -> Attempt | None:
     other = Attempt.at(found[0].pair.source, found[0].pair.target, image, wanted)
     if _whole(other) > min(map(_whole, found)):
         return None  # before parts are looked for
-    if by_curvature and curvature_gain(found, other) < MORE_EXPLAINED:
-        return None
     return other if gain_of(found, other) > FAR_LIKELIER else None
 
 
@@ -91,27 +99,40 @@ def suspected_image(found: Sequence[Attempt]) -> Image | None:
 
 
 def explains_more(found: Sequence[Attempt]) -> bool:
-    """Whether the first maps to the mirror image of a closed target explain more of its curvature.
-
-    A left hand takes every pose of a right one but for what tells palm from back: their curvature. Two poses of a body,
-    bent to one side and to the other, have the same curvature, however likelier their mirror images are.
-    """
-    pair, tried = found[0].pair, [one.image for one in found]
-    if not pair.closed or MIRRORED in tried or (pair.isometric and own_symmetry(pair) > AS_BODIES_ARE):
+    """Whether the first maps to the mirror image of a closed target explain more of its curvature."""
+    pair = found[0].pair
+    if not pair.closed or MIRRORED in [one.image for one in found]:
         return False
-    image = SurfacePair(pair.source, MIRRORED.of(pair.target), found[0].wanted.landmarks, MIRRORED.reverses)
-    rounds, _ = rounds_of(image, found[0].wanted.distance)
-    there = likeliest(proposals(image, rounds[:1], starts_of(image)).maps)
+    if pair.isometric and own_symmetry(pair) > AS_BODIES_ARE:
+        return False
     here = likeliest([one for attempt in found for one in attempt.maps])
+    there = _first_mirrored(found[0], here)
     gain = unexplained_curvature(here.residuals) - unexplained_curvature(there.residuals)
     return here.neg_log_likelihood > there.neg_log_likelihood and gain > WORTH_A_LOOK
 
 
+def _first_mirrored(attempt: Attempt, best: Proposal) -> Proposal:
+    """The likeliest of the first maps to the mirror image.
+
+    Where parts keep their sizes a reflection of the source takes the `best` map there; else starts are refined in the
+    metric of space.
+    """
+    pair, wanted = attempt.pair, attempt.wanted
+    image = SurfacePair(pair.source, MIRRORED.of(pair.target), wanted.landmarks, MIRRORED.reverses)
+    reflection = pair.reflections[0]
+    if pair.isometric and reflection is not None:
+        here = image.simplified[0]
+        places = pair.source.mesh.vertices[reflection[here.origin]]
+        return Proposal.of(image, best.registered.y[here.places.query(places)[1]] * AXES)
+    return likeliest(proposals(image, rounds_of(image, wanted.distance)[0][:1], starts_of(image)).maps)
+
+
 def curvature_gain(found: Sequence[Attempt], other: Attempt) -> float:
-    """How much more of the curvature the likeliest finished map of another image explains than the likeliest `found`."""
+    """How much more of the curvature the finished map to another image explains than the likeliest that was `found`."""
     ours = min((one.finished[0] for one in found), key=lambda one: one.neg_log_likelihood)
-    here, there = ((one.simplified, one.simplified_back, one.whole) for one in (ours.evidence, other.finished[0].evidence))
-    return unexplained_curvature(here) - unexplained_curvature(there)
+    maps = ours.evidence, other.finished[0].evidence
+    here, there = (unexplained_curvature((one.simplified, one.simplified_back, one.whole)) for one in maps)
+    return here - there
 
 
 def unexplained_curvature(residuals: Sequence[Residuals]) -> float:
@@ -133,15 +154,20 @@ def _whole(attempt: Attempt) -> float:
     return min(one.neg_log_likelihood for one in attempt.maps) + attempt.pair.given_up
 
 
-def with_candidate(answer: Correspondence, found: Sequence[Attempt], other: Attempt) -> Correspondence:
-    """The answer, POOR since another image of the target is far likelier than all `found`, whose map is a candidate.
+def with_candidate(
+    answer: Correspondence, found: Sequence[Attempt], other: Attempt, *, undecided: bool = False
+) -> Correspondence:
+    """The answer with the map to another image of the target as a candidate: far likelier than all `found`, so POOR.
 
-    Its confidence is that of the map if it is the right one of both, which is less likely than not.
+    Its confidence is that of the map if it is the right one of both, which is less likely than not. `undecided`: a body
+    in a mirrored pose would look alike; the answer is AMBIGUOUS at the best, and the one map as likely as the other.
     """
-    gain = gain_of(found, other)
+    gain = 0.0 if undecided else gain_of(found, other)
     part = likelier_part(other.of_parts, other.maps, other.wanted.parts)
     image = correspondence_of(other.finished[:1], {}) if part is None else part.correspondence({})
     evidence = image.meta["evidence"]
     candidate = Candidate(image.points, evidence["stress"], evidence["orientation"])
     confidence = answer.confidence * expit(-gain)
-    return replace(answer, status=MatchStatus.POOR, confidence=confidence, candidates=(candidate, *answer.candidates))
+    status = MatchStatus.AMBIGUOUS if undecided and answer.status is MatchStatus.GOOD else answer.status
+    status = status if undecided else MatchStatus.POOR
+    return replace(answer, status=status, confidence=confidence, candidates=(candidate, *answer.candidates))

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from geodesics import Distance, Mesh
-from geodesics.errors import BadArgument
+from geodesics.errors import BadArgument, Note
 from geodesics.threads import on_one_blas_thread, side_by_side
 from gmds.correspondence import Correspondence
 from gmds.errors import SampleCountError
@@ -21,13 +21,12 @@ from gmds.matching.candidates import mirrored
 from gmds.matching.clean_copies import cleaning_notes, on_clean, on_given
 from gmds.matching.large_surfaces import CoarseCopies
 from gmds.matching.method import loss_of
-from gmds.matching.notes import doubt_notes, image_notes, match_notes, part_notes
-from gmds.matching.other_images import likelier_image, with_candidate
+from gmds.matching.notes import doubt_notes, image_notes, match_notes, part_notes, rival_note
+from gmds.matching.other_images import likelier_image, rival_image, with_candidate
 from gmds.matching.part_answers import PARTS, Parts, likelier_part
 from gmds.matching.result import correspondence_of
 from gmds.matching.several_bodies import beyond, incomplete, match_bodies
 from gmds.mds.losses import Loss
-from gmds.parts.handedness import Image
 from gmds.provenance import method_in_words
 from gmds.suggestions import suggest_keywords
 from gmds.surface.measured import Surface, measure
@@ -154,11 +153,11 @@ def match(  # noqa: PLR0913 - the signature is a promise
     looked_for = distance is None and (landmarks is None or parts != "auto")
     wanted = Wanted(constraints, distance, loss, count, parts, report, looked_for)
     settings = {**method_in_words(distance, loss), "orientation": orientation, "parts": parts, "rng": rng}
-    answer, image = _answered(measured, facing, orientation, wanted, settings)
+    answer, of_images = _answered(measured, facing, orientation, wanted, settings)
     answer = on_given(answer if copies is None else copies.prolonged(answer), *whole)
     of_a_part = "part" in answer.meta
     notes = match_notes(measured.original, facing.original, answer.status, of_a_part=of_a_part)
-    notes += [] if image is None else image_notes(image, taken=orientation != "preserve")
+    notes += of_images
     notes += part_notes(measured.mesh, facing.mesh, parts, answer.meta.get("part"))
     notes += [*cleaning_notes(*whole), *doubt_notes(answer)]
     if more := beyond(bodies, whole):
@@ -173,8 +172,8 @@ def match(  # noqa: PLR0913 - the signature is a promise
 
 def _answered(
     source: Surface, target: Surface, orientation: Orientation, wanted: Wanted, settings: Mapping[str, Any]
-) -> tuple[Correspondence, Image | None]:
-    """The likeliest map, of a whole or a part, and an image of the target, not asked for, that fits far better."""
+) -> tuple[Correspondence, list[Note]]:
+    """The likeliest map, of a whole or a part, and what is said of images of the target that were not asked for."""
     tried = attempted(source, target, orientation, wanted)
     meta = {"parameters": {"n_samples": min(wanted.count, len(source.regular.usable)), **settings}}
     other = likelier_image(tried, orientation, wanted)
@@ -187,9 +186,13 @@ def _answered(
     else:
         candidates = tried[0].finished if len(tried) == 1 else finished(tried)
         answer = correspondence_of([*candidates, *mirrored(candidates[0])], meta)
-    if other is not None and orientation == "preserve":
-        answer = with_candidate(answer, tried, other)
-    return answer, None if other is None else other.image
+    if other is not None:
+        taken = orientation != "preserve"
+        return answer if taken else with_candidate(answer, tried, other), image_notes(other.image, taken=taken)
+    rival = rival_image(tried, orientation, wanted)
+    if rival is not None:
+        return with_candidate(answer, tried, rival, undecided=True), [rival_note()]
+    return answer, []
 
 
 def check_sample_count(count: Any, mesh: Mesh) -> int:

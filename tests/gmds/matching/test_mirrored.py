@@ -18,9 +18,9 @@ from gmds.matching.other_images import FAR_LIKELIER, SYMMETRIC, own_symmetry, su
 from gmds.matching.pair import SurfacePair, simplified
 from gmds.parts.handedness import AS_IT_IS, INSIDE_OUT, MIRRORED, Image, image_costs
 from gmds.shapes import humanoid, quadruped
-from gmds.shapes.figure import Figure, figure
+from gmds.shapes.figure import Figure, figure, truth
 from gmds.shapes.implicit import Cone, Ellipsoid
-from gmds.shapes.skeleton import Body, Joint
+from gmds.shapes.skeleton import Body, Joint, Move
 from gmds.surface.measured import measure
 
 BONE = Body(
@@ -63,6 +63,32 @@ MOLAR = Body(
     skin_width=0.04,
 )
 """Rounder still, with cusps: stretched, it lies on its mirror image nearly as well."""
+
+
+FINGERS = {"index": (0.27, 0.55), "middle": (0.09, 0.62), "ring": (-0.09, 0.56), "little": (-0.27, 0.42)}
+HAND = Body(
+    joints=(
+        Joint("hand", "", (0.0, 0.0, 0.0)),
+        *(Joint(name, "hand", (0.35, y, 0.0)) for name, (y, _) in FINGERS.items()),
+    ),
+    parts=(
+        Ellipsoid("hand", (0.0, 0.0, 0.0), (0.45, 0.38, 0.14)),
+        Ellipsoid("hand", (-0.15, 0.2, -0.1), (0.25, 0.16, 0.12)),
+        Cone("hand", (-0.4, 0.0, 0.0), (-0.9, 0.0, 0.0), 0.2, 0.2),
+        Cone("hand", (-0.1, 0.3, -0.05), (0.2, 0.7, -0.1), 0.11, 0.08),
+        *(Cone(name, (0.3, y, 0.0), (0.4 + length, 1.3 * y, 0.0), 0.1, 0.07) for name, (y, length) in FINGERS.items()),
+    ),
+    blend_width=0.04,
+    skin_width=0.08,
+)
+"""Nearly as symmetric as a body, palm and back: only the ball of the thumb tells them apart."""
+
+
+@functools.cache
+def hand(curled: float, seed: int, n_vertices: int = 700) -> Figure:
+    """One whose fingers are curled by an angle in degrees."""
+    moves = {name: Move(turn=(0.0, curled, 0.0)) for name in FINGERS}
+    return figure(HAND, moves, spacing=0.04, n_vertices=n_vertices, seed=seed)
 
 
 @functools.cache
@@ -138,6 +164,36 @@ def test_a_round_shape_on_its_stretched_mirror_image_is_told() -> None:
     assert "W225" in codes(taken)
     moved = molar(0).vertices * stretched * (1.0, -1.0, 1.0)
     assert np.linalg.norm(taken.points.positions - moved, axis=1).mean() < 0.05
+
+
+@pytest.mark.parametrize("n_vertices", [700, 2100])
+def test_a_hand_on_the_other_hand_with_curled_fingers_is_ambiguous(n_vertices: int) -> None:
+    """It was sent there, palm on back, with a confidence of 0.96 and GOOD; 2,100 vertices are decided early."""
+    source, target = hand(0.0, 0, n_vertices), hand(50.0, 1, n_vertices)
+    places = truth(source, target).positions * (1.0, -1.0, 1.0)
+    kept = gmds.match(source, other_side(target), n_samples=60)
+    assert kept.status is MatchStatus.AMBIGUOUS and "W309" in codes(kept) and kept.confidence.max() <= 0.5
+    taken = kept.candidates[0].points.positions
+    missed = [np.linalg.norm(points - places, axis=1).mean() for points in (taken, kept.points.positions)]
+    assert missed[0] < 0.05 < 0.15 < missed[1]
+
+
+def test_a_hand_is_not_told_from_itself() -> None:
+    answer = gmds.match(hand(0.0, 0), hand(50.0, 1), n_samples=60)
+    assert answer.status is MatchStatus.GOOD and not answer.meta["notes"]
+
+
+def test_a_mirror_image_shares_what_is_measured_of_the_surface() -> None:
+    surface = measure(hand(0.0, 0))
+    image, anew = surface.reflection, measure(other_side(surface.original))
+    assert image.regular.functions is surface.regular.functions
+    np.testing.assert_allclose(image.regular.eigenvalues, anew.regular.eigenvalues, atol=1e-6)
+    np.testing.assert_allclose(image.squashed_curvature, anew.squashed_curvature, atol=1e-6)
+    few = simplified(image)
+    assert image.reflected and (few.origin == simplified(surface).origin).all()
+    assert np.linalg.norm(image.mesh.vertices[few.origin] - few.mesh.vertices, axis=1).max() < 0.05
+    normals = simplified(surface).normals * (-1.0, 1.0, 1.0)
+    np.testing.assert_allclose(few.normals, normals, atol=1e-9)
 
 
 def test_a_left_one_on_a_left_one_is_not_mirrored() -> None:
