@@ -11,12 +11,15 @@ from scipy.optimize import linear_sum_assignment
 from geodesics import Mesh, SurfacePoints
 from geodesics.arrays import Bools, Floats, Integers
 from geodesics.caching import cached_property
+from geodesics.errors import Note
 from geodesics.points import mixed
 from geodesics.topology.components import component_areas, vertex_components
 from gmds.comparison.profiles import distance_profile, least_distortion
 from gmds.correspondence import Correspondence
 from gmds.errors import TooFewVertices
 from gmds.maps.point_map import Candidate, MatchStatus
+from gmds.matching.evidence import Evidence
+from gmds.matching.rating import AMBIGUOUS_MARGIN
 from gmds.surface.measured import Surface, measured_as_it_is
 
 # All set by hand. A part is a body of its own from this share of the area of the largest; of so many bodies of a mesh,
@@ -83,7 +86,8 @@ def matched_bodies(
 
     The largest body of the mesh with fewer is matched with those of the other that are about as much alike; the
     similarity that comes nearest to each map says where the other bodies would be, and the map for which they are there
-    is kept. These are matched with what is there.
+    is kept. These are matched with what is there. Where the first body is far likelier to be another, by its shape,
+    nothing tells whether bodies changed their shapes or their places: the map is AMBIGUOUS, and says so (W310).
     """
     swapped = len(ours) > len(theirs)
     few, many = (theirs, ours) if swapped else (ours, theirs)
@@ -97,11 +101,13 @@ def matched_bodies(
         rest, gap = _partners(answer, pair, ours, theirs, unlike.T if swapped else unlike)
         begun.append((answer.status is MatchStatus.POOR, gap + unlike[0, j], len(begun), answer, pair, rest))
     *_, answer, pair, rest = min(begun, key=lambda one: one[:3])
+    note = _disputed(answer, pair, [one[3:5] for one in begun])
     maps = [(pair, answer), *((two, match(*two)) for two in rest)]
     kept = [one for one in maps if one[1].status is not MatchStatus.POOR] or maps[:1]
     alone = [i for i, one in enumerate(ours) if all(one is not pair[0] for pair, _ in kept)]
     without = [j for j, one in enumerate(theirs) if all(one is not pair[1] for pair, _ in kept)]
-    return _joined(kept, whole), alone, without
+    joined = _joined(kept, whole)
+    return joined if note is None else _doubted(joined, note), alone, without
 
 
 def _partners(
@@ -123,6 +129,37 @@ def _partners(
     return [(ours[rows[i]], theirs[columns[j]]) for i, j in zip(row, column, strict=True)], float(
         cost[row, column].mean()
     )
+
+
+def _disputed(
+    answer: Correspondence,
+    pair: tuple[Body, Body],
+    others: Sequence[tuple[Correspondence, tuple[Body, Body]]],
+) -> Note | None:
+    """What is said of the `answer` for a pair of bodies where that of another pair is far likelier, by shape."""
+    said = [(_neg_log_likelihood(one), two) for one, two in others if one.status is not MatchStatus.POOR]
+    best, likelier = min(said, key=lambda one: one[0], default=(np.inf, pair))
+    if not _neg_log_likelihood(answer) - best > AMBIGUOUS_MARGIN:
+        return None
+    at = [int(one.vertices[0]) for one in likelier]
+    message = (
+        f"the bodies are paired by where they are; by its shape that of the source at vertex {at[0]} is rather that of "
+        f"the target at vertex {at[1]}: if bodies have changed places, split the meshes and match them one by one"
+    )
+    return Note("W310", "warning", message, tuple(at))
+
+
+def _doubted(answer: Correspondence, note: Note) -> Correspondence:
+    """The answer, AMBIGUOUS at the best: one pairing of the bodies is as likely as the other."""
+    status = max(answer.status, MatchStatus.AMBIGUOUS, key=lambda one: one.rank)
+    meta = {**answer.meta, "notes": [*answer.meta.get("notes", ()), str(note)]}
+    return replace(answer, status=status, confidence=answer.confidence / 2, meta=meta)
+
+
+def _neg_log_likelihood(answer: Correspondence) -> float:
+    """That of a map of two wholes; infinite for that of a part, which is not to be compared with it."""
+    told = answer.meta.get("evidence", {})
+    return np.inf if "part" in answer.meta or "outline" not in told else Evidence.from_meta(told).neg_log_likelihood
 
 
 def _similarity(body: Body, answer: Correspondence) -> Callable[[Floats], Floats]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -71,6 +72,13 @@ class Evidence:
             "closed": self.closed,
             "landmark_error": self.landmark_error,
         }
+
+    @classmethod
+    def from_meta(cls, told: Mapping[str, Any]) -> Evidence:
+        """What `as_meta` told."""
+        names = ("stress", "orientation", "folded", "closed", "landmark_error")
+        left = [Residuals(**told[name]) for name in ("outline", "outline_back", "whole")]
+        return cls(*left, **{name: told[name] for name in names})
 
     @property
     def fold_neg_log_likelihood(self) -> float:

@@ -16,6 +16,7 @@
 | W307 | landmarks that do not fit the map around them, or that a likelier map misses, and by how much; then POOR |
 | W308 | a part was asked for by name, and none was found, or nothing is cut off the surface that was said to be one |
 | W309 | the mirror image of the target explains its curvature better: another hand, or a body in a mirrored pose |
+| W310 | bodies are paired by where they are, and by shape one of them is rather another; then AMBIGUOUS |
 """
 
 from __future__ import annotations

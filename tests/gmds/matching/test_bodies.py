@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import generated_shapes as shapes
 import numpy as np
+import pytest
 from matched_shapes import bumpy
 
 import gmds
@@ -11,7 +12,7 @@ from geodesics import Mesh
 from gmds.maps.point_map import MatchStatus
 from gmds.matching.bodies import bodies_of
 from gmds.matching.several_bodies import _left_out, beyond, incomplete
-from gmds.shapes import quadruped
+from gmds.shapes import humanoid, quadruped
 from gmds.surface.measured import measure
 
 SAMPLES = 50
@@ -44,6 +45,20 @@ def test_two_alike_go_each_to_its_own_by_how_they_lie() -> None:
     assert answer.valid.all() and answer.status is MatchStatus.GOOD
     assert np.array_equal(answer.vertex_map(), np.argsort(swapped))
     assert answer.meta["bodies"] == 2
+
+
+@pytest.mark.parametrize("changed", [True, False])
+def test_two_people_who_changed_places_are_ambiguous(changed: bool) -> None:
+    """One has a larger head. By where they stand each was sent to the other, GOOD and with a confidence of 0.98."""
+    place = np.array([0.0, 2.0, 0.0])
+    source = [humanoid(n_vertices=600, seed=1), humanoid(n_vertices=600, head_scale=1.8, seed=2)]
+    target = [humanoid("wave", n_vertices=600, seed=3), humanoid("wave", n_vertices=600, head_scale=1.8, seed=4)]
+    here, there = (joined(one, moved(other, place)) for one, other in (source, target[::-1] if changed else target))
+    answer = gmds.match(here, there, n_samples=SAMPLES)
+    told = [note[:4] for note in answer.meta["notes"]]
+    assert answer.status is (MatchStatus.AMBIGUOUS if changed else MatchStatus.GOOD)
+    assert ("W310" in told) == changed
+    assert not changed or answer.confidence.max() <= 0.5
 
 
 def test_a_body_without_a_partner_is_told_and_not_good() -> None:
