@@ -74,10 +74,10 @@ def collected(case: Case) -> dict[str, Any]:
 
     believed = 1.0
 
-    def beside(answer: Correspondence, *others: Any) -> Correspondence:
+    def beside(answer: Correspondence, *others: Any, **how: bool) -> Correspondence:
         nonlocal believed
         signs = seen[-1]
-        lowered = with_candidate(answer, *others)
+        lowered = with_candidate(answer, *others, **how)
         believed = float(lowered.confidence.max() / answer.confidence.max())
         seen.append(signs)  # of the answer again, as the last are those of the other image
         return lowered

@@ -79,7 +79,8 @@ def match(  # noqa: PLR0913 - the signature is a promise
     orientation : {"preserve", "reverse", "any", "auto"}
         What the map is to do to the orientation of the surface; "any" takes the likelier of both. With "preserve" it is
         told when the mirror image of the target, or the target with its faces turned, is far likelier: the answer is
-        POOR and has the map to that as its first candidate. "auto" takes that map then.
+        POOR and has the map to that as its first candidate. "auto" takes that map then. Where the mirror image explains
+        more of the curvature (a hand on the other hand, or a body in a mirrored pose) the answer is AMBIGUOUS.
     parts : {"auto", "neither", "source", "target", "both"}
         Which surface is but a part of what the other is. With "auto" that is asked of a surface with a boundary, unless
         landmarks or a distance are given: its vertices then all have a counterpart, and of the other surface those in
