@@ -76,9 +76,9 @@ class Evidence:
     @classmethod
     def from_meta(cls, told: Mapping[str, Any]) -> Evidence:
         """What `as_meta` told."""
+        simplified, back, whole = (Residuals(**told[name]) for name in ("outline", "outline_back", "whole"))
         names = ("stress", "orientation", "folded", "closed", "landmark_error")
-        left = [Residuals(**told[name]) for name in ("outline", "outline_back", "whole")]
-        return cls(*left, **{name: told[name] for name in names})
+        return cls(simplified, back, whole, **{name: told[name] for name in names})
 
     @property
     def fold_neg_log_likelihood(self) -> float:
