@@ -99,9 +99,12 @@ def suspected_image(found: Sequence[Attempt]) -> Image | None:
 
 
 def explains_more(found: Sequence[Attempt]) -> bool:
-    """Whether the first maps to the mirror image of a closed target explain more of its curvature."""
+    """Whether the first maps to the mirror image of a closed target explain more of its curvature.
+
+    Not asked with a distance that is given: what is registered then only begins a map.
+    """
     pair = found[0].pair
-    if not pair.closed or MIRRORED in [one.image for one in found]:
+    if not pair.closed or found[0].wanted.distance is not None or MIRRORED in [one.image for one in found]:
         return False
     if pair.isometric and own_symmetry(pair) > AS_BODIES_ARE:
         return False
@@ -124,7 +127,7 @@ def _first_mirrored(attempt: Attempt, best: Proposal) -> Proposal:
         here = image.simplified[0]
         places = pair.source.mesh.vertices[reflection[here.origin]]
         return Proposal.of(image, best.registered.y[here.places.query(places)[1]] * AXES)
-    return likeliest(proposals(image, rounds_of(image, wanted.distance)[0][:1], starts_of(image)).maps)
+    return likeliest(proposals(image, rounds_of(image, None)[0][:1], starts_of(image)).maps)
 
 
 def curvature_gain(found: Sequence[Attempt], other: Attempt) -> float:
