@@ -38,6 +38,15 @@ def carried_values(answer: Correspondence, given: NDArray[Any], kind: str, most:
     return answer.transfer(given, labels=kind == "labels")
 
 
+def refuse_labels(given: NDArray[Any], file: Path) -> None:
+    """A wrong use, where what is to be weights of bones is one column of whole numbers beyond 1: names of parts."""
+    if given.size == len(given) and (given == given.round()).all() and given.max(initial=0) > 1:
+        raise click.UsageError(
+            f"{file} holds one column, of whole numbers up to {given.max():g}; weights have a column for each bone, "
+            "and of one bone are from 0 to 1; labels are carried by --kind labels"
+        )
+
+
 def as_colours(given: NDArray[Any], file: Path) -> NDArray[np.uint8]:
     """Columns of a file as colours; a wrong use where they are none."""
     import numpy as np

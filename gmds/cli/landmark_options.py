@@ -54,7 +54,7 @@ def check_on(landmarks: Landmarks, mesh: Mesh, which: str) -> None:
 
     there = landmarks.defined
     names = [name for name, one in zip(landmarks.distinct_names, there, strict=True) if one]
-    place_on(landmarks.at[there], mesh, which, names)
+    place_on(landmarks[there], mesh, which, names)
 
 
 def given_landmarks(

@@ -22,13 +22,14 @@ seed_option = click.option("--seed", default=0, show_default=True, help="Seed of
 
 
 def emit(result: Mapping[str, Any], as_json: bool) -> None:
-    """Print a result on stdout: JSON, or one `name: value` a line."""
+    """Print a result on stdout: JSON, or one `name: value` a line, and an entry a line of what is a table."""
     if as_json:
         click.echo(json.dumps(_finite(result), indent=2, allow_nan=False))
         return
     width = max((len(name) for name in result), default=0)
     for name, value in result.items():
-        click.echo(f"{name + ':':<{width + 1}} {_plain(value)}")
+        for i, line in enumerate(_lines(value)):
+            click.echo(f"{'' if i else name + ':':<{width + 1}} {line}")
 
 
 def _finite(value: Any) -> Any:
@@ -110,6 +111,13 @@ def progress_bar(title: str, *, remaining: bool = False) -> Iterator[Progress]:
 
         with reporting_compilation(compiling):
             yield progress
+
+
+def _lines(value: Any) -> list[str]:
+    """The entries of a list of lists or of mappings, each on its own line; all else on one."""
+    if isinstance(value, list | tuple) and any(isinstance(item, Mapping | list | tuple) for item in value):
+        return [_plain(item) for item in value]
+    return [_plain(value)]
 
 
 def _plain(value: Any) -> str:

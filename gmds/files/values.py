@@ -28,7 +28,8 @@ class BadValuesFile(FormatError):
 def read_values(path: Path, count: int, *, labels: bool = False) -> NDArray[Any]:
     """Values (count,) or (count, k) from a .npy or a text file, .csv with commas (or semicolons) or .txt with blanks.
 
-    In text one line more than there are vertices is a header, and a first column that it calls `vertex` counts from 0.
+    In text one line more than there are vertices is a header, as are words above numbers; a first column that it calls
+    `vertex` counts from 0.
     Text holds numbers, float64; with `labels` whole numbers, int64, or else words. Raises `BadValuesFile`.
     """
     if path.exists() and not path.is_file():
@@ -52,12 +53,13 @@ def _array(path: Path) -> NDArray[Any]:
 
 def _from_text(path: Path, count: int, labels: bool) -> NDArray[Any]:
     rows = _rows(path)
-    if len(rows) == count + 1:
-        (_, header), *rows = rows
-        if header[0].strip().lower() == "vertex" and len(header) > 1:
-            rows = _without_numbers(path, rows)
+    numbered = bool(rows) and _is_numbered(rows[0][1])
+    headed = numbered or len(rows) == count + 1 or (not labels and len(rows) > 1 and _is_header(*rows[:2]))
+    rows = rows[1:] if headed else rows
     if len(rows) != count:
-        raise BadValuesFile(f"{path} has {len(rows)} rows; the target has {count} vertices and needs one row for each")
+        found = f"{len(rows)} rows{' below its header' if headed else ''}"
+        raise BadValuesFile(f"{path} has {found}; the target has {count} vertices and needs one row for each")
+    rows = _without_numbers(path, rows) if numbered else rows
     width = len(rows[0][1])
     for number, words in rows:
         if len(words) != width:
@@ -76,6 +78,24 @@ def _rows(path: Path) -> list[tuple[int, list[str]]]:
         return [(number, line.split()) for number, line in enumerate(lines, start=1) if line.strip()]
     except (UnicodeDecodeError, csv.Error) as error:
         raise BadValuesFile(f"{path} is not UTF-8 text ({error})") from error
+
+
+def _is_numbered(header: list[str]) -> bool:
+    """Whether the first row says that vertices are numbered."""
+    return header[0].strip().lower() == "vertex" and len(header) > 1
+
+
+def _is_header(first: tuple[int, list[str]], second: tuple[int, list[str]]) -> bool:
+    """Whether the first row holds words alone, and the second numbers alone."""
+    return not any(map(_is_number, first[1])) and all(map(_is_number, second[1]))
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(plain_number(word))
+    except ValueError:
+        return False
+    return True
 
 
 def _without_numbers(path: Path, rows: list[tuple[int, list[str]]]) -> list[tuple[int, list[str]]]:

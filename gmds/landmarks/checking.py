@@ -42,7 +42,8 @@ def check_landmarks(landmarks: Any, source: Mesh, target: Mesh) -> tuple[Surface
     ------
     LandmarkError
         For another form (E300), vertices or faces that do not exist (E301), points given twice (E302), unequal counts
-        (E303), vertices on no face (E304), and positions more than 5 % of the diagonal off the surface (E305).
+        (E303), vertices on no face (E304), and positions more than 5 % of the diagonal off the surface, or of a file
+        that says its frame and fits far better in the other one (E305).
 
     See Also
     --------
@@ -81,7 +82,7 @@ def place_on(given: Any, mesh: Mesh, name: str = "surface", called: Sequence[str
 
     `called`: the names (k,) by which errors call them; else their rows.
     """
-    return _place(given if isinstance(given, SurfacePoints) else _array(given), mesh, name, [], called)
+    return _place(given, mesh, name, [], called)
 
 
 def _are_named(landmarks: Sequence[Any]) -> bool:
@@ -94,13 +95,13 @@ def _both_have(source: Landmarks, target: Landmarks) -> tuple[Any, tuple[Sequenc
     if alone:
         message = f"{len(alone)} landmarks are on one surface only ({', '.join(alone[:5])})"
         raise LandmarkError("E303", f"{message}; gmds.landmarks.files.paired gives those that both have")
-    return (ours.at, theirs.at), (ours.distinct_names, theirs.distinct_names)
+    return (ours, theirs), (ours.distinct_names, theirs.distinct_names)
 
 
 def _halves(landmarks: Any) -> tuple[Any, Any]:
     """The source half and the target half."""
     if isinstance(landmarks, (tuple, list)) and len(landmarks) == 2:
-        halves: list[Any] = [x if isinstance(x, SurfacePoints) else _array(x) for x in landmarks]
+        halves: list[Any] = [x if isinstance(x, SurfacePoints | Landmarks) else _array(x) for x in landmarks]
         plain = all(isinstance(x, (tuple, list)) for x in landmarks)
         if not (plain and all(np.shape(x) == (2,) for x in halves)):
             return halves[0], halves[1]
@@ -128,12 +129,14 @@ def _array(values: Any) -> NDArray[Any]:
 
 def _place(given: Any, mesh: Mesh, name: str, notes: list[Note], called: Sequence[str] = ()) -> SurfacePoints:
     """One half of the landmarks on its mesh."""
+    framed = isinstance(given, Landmarks) and given.framed
+    given = given if isinstance(given, SurfacePoints) else _array(given)
     if isinstance(given, SurfacePoints):
         if given.mesh is not mesh:
             raise LandmarkError("E300", f"the landmarks of the {name} are points of another mesh")
         points = given
     elif given.ndim == 2 and given.shape[1] == 3:
-        points = snapped(given, mesh, name, notes, called)
+        points = snapped(given, mesh, name, notes, called, framed=framed)
     elif given.ndim == 2 and given.shape[1] == 4:
         points = _on_faces(given, mesh, name)
     elif given.ndim == 1:

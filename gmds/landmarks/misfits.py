@@ -6,6 +6,8 @@ but not close to it, still goes where it belongs, and moved along with that as a
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from geodesics import Mesh, SurfacePoints
@@ -68,10 +70,9 @@ def carried_along(rings: list[Integers], places: Floats, images: Floats, areas: 
     return result
 
 
-def named(rows: Integers, gaps: Floats, names: tuple[str, ...]) -> str:
-    """Those of the landmarks (k,) in words, with their gaps (k,)."""
-    called = [names[row] if names else f"number {row}" for row in rows]
-    return ", ".join(f"{name} by {gaps[row]:.2f}" for name, row in zip(called, rows, strict=True))
+def named(rows: Integers, gaps: Floats, called: Sequence[str]) -> str:
+    """Those of the landmarks (k,) in words, as they are called, with their gaps (k,)."""
+    return ", ".join(f"{called[row]} by {gaps[row]:.2f}" for row in rows)
 
 
 def _root_areas(answer: PointMap) -> tuple[float, float]:

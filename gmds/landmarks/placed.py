@@ -46,6 +46,17 @@ class PlacedLandmarks:
     def _rows(self) -> Integers:
         return np.arange(len(self.tolerance)) if self.rows is None else self.rows
 
+    @property
+    def called(self) -> tuple[str, ...]:
+        """What notes call each (k,): its name, else its vertices, else its row, from 0."""
+        if self.names:
+            return self.names
+        ours, theirs = _corners(self.on_source), _corners(self.on_target)
+        return tuple(
+            f"landmark {i} (counted from 0)" if here < 0 else f"vertex {here}" + f" on vertex {there}" * (there >= 0)
+            for i, (here, there) in enumerate(zip(ours, theirs, strict=True))
+        )
+
     def as_parameters(self) -> dict[str, Any]:
         """All of it, as JSON can carry it."""
         sides = {"source": self.on_source, "target": self.on_target}
@@ -100,14 +111,13 @@ class PlacedLandmarks:
         if not len(wrong):
             return []
         worst, *others = wrong[np.argsort(-missed[wrong], kind="stable")].tolist()
-        rest = f", then {named(others[: NAMED - 1], missed, self.names)}" if others else ""
+        rest = f", then {named(others[: NAMED - 1], missed, self.called)}" if others else ""
         rest += f" and {len(others) - NAMED + 1} more" if len(others) >= NAMED else ""
-        called = self.names[worst] if self.names else f"number {worst}"
         many = len(wrong) > 1
         message = (
             f"{len(wrong)} soft landmark{'s are' if many else ' is'} not followed, as the shapes contradict "
-            f"{'them; the worst' if many else 'it'}, {called}, by {missed[worst]:.3f} square roots of the area{rest}; "
-            f"{'are they' if many else 'is it'} right?"
+            f"{'them; the worst' if many else 'it'}, {self.called[worst]}, by {missed[worst]:.3f} square roots of the "
+            f"area{rest}; {'are they' if many else 'is it'} right?"
         )
         return [Note("W302", "warning", message, tuple(wrong.tolist()), len(wrong))]
 
@@ -123,7 +133,13 @@ class PlacedLandmarks:
         rest = "" if len(wrong) <= NAMED else f", and {len(wrong) - NAMED} more"
         message = (
             "landmarks do not fit the map around them, or the shapes, which would put them elsewhere, by square roots "
-            f"of the area: {named(wrong[:NAMED], by, self.names)}{rest}; the map is torn or bent to meet them; "
+            f"of the area: {named(wrong[:NAMED], by, self.called)}{rest}; the map is torn or bent to meet them; "
             "are they right?"
         )
         return [Note("W307", "warning", message, tuple(wrong.tolist()), len(wrong))]
+
+
+def _corners(points: SurfacePoints) -> list[int]:
+    """The vertex that each point (k,) is, from 0; -1 for one within a face."""
+    exact = points.barycentric.max(axis=1) >= 1 - 1e-9
+    return [int(vertex) for vertex in np.where(exact, points.nearest_vertices(), -1)]

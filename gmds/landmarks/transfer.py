@@ -102,7 +102,7 @@ def carry_landmarks(answer: PointMap, landmarks: Landmarks) -> CarriedLandmarks:
     if not len(there):
         raise LandmarkError("E300", "none of the landmarks has a place")
     named = [landmarks.distinct_names[i] for i in there] if landmarks.named else ()
-    placed = place_on(landmarks.at[there], answer.source, "source", named)
+    placed = place_on(landmarks[there], answer.source, "source", named)
     row = np.zeros(len(landmarks), dtype=np.int64)  # those without a place stand at the first one that has one
     row[there] = np.arange(len(there))
     on_source, moved = placed[row], np.zeros(len(landmarks))
@@ -143,5 +143,5 @@ def landmark_errors(carried: CarriedLandmarks, known: Landmarks) -> Floats:
     mesh = carried.on_target.mesh
     names = [theirs.distinct_names[i] for i in range(len(theirs))] if theirs.named else ()
     errors = np.full(len(carried.given), np.nan)
-    errors[ours.at] = geodesic_error(carried.on_target[ours.at], place_on(theirs.at, mesh, "target", names))
+    errors[ours.at] = geodesic_error(carried.on_target[ours.at], place_on(theirs, mesh, "target", names))
     return errors

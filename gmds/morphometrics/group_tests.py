@@ -17,7 +17,7 @@ from scipy import stats
 from geodesics.arrays import Floats
 from geodesics.errors import BadArgument, BadShape
 from gmds.morphometrics.components import ALIKE
-from gmds.morphometrics.sample_sizes import dealt, probability
+from gmds.morphometrics.sample_sizes import dealt, least_probability, probability
 
 PERMUTATIONS = 999  # so that the least probability is 0.001: a convention
 
@@ -36,7 +36,9 @@ class ShapeTest:
 class PointTests:
     """A test at each point (n,): the slope (or difference of means), its confidence limits, p, and q of discoveries.
 
-    `low`, `high`: of 95 %, by Student's t; NaN where there are fewer than 3 values, or they do not vary.
+    `low`, `high`: of 95 %, by Student's t; NaN where there are fewer than 3 values, or they do not vary. `p`: by
+    Student's t as well, but no less than a permutation test of the same values could give (`least_probability`), as
+    so few say no more, unless their errors are known to be normal. `q` follows from it.
     """
 
     slope: Floats
@@ -138,8 +140,14 @@ def point_tests(values: Floats, covariate: Floats) -> PointTests:
         error = np.sqrt(np.maximum(rest, 1e-300) / freedom / (x**2).sum())
         reach = stats.t.ppf(0.975, freedom) * error
         slope[some], low[some], high[some] = b, b - reach, b + reach
-        p[some] = 2 * stats.t.sf(np.abs(b) / error, freedom)
+        p[some] = np.maximum(2 * stats.t.sf(np.abs(b) / error, freedom), _least(covariate[pattern]))
     return PointTests(slope, low, high, p, discoveries(p))
+
+
+def _least(covariate: Floats) -> float:
+    """The least p of a permutation test of a covariate (k,), or of two groups that two numbers stand for."""
+    two = len(np.unique(covariate)) == 2
+    return least_probability(np.where(covariate == covariate[0], "a", "b") if two else covariate)
 
 
 def discoveries(p: Floats) -> Floats:

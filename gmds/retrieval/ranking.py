@@ -50,6 +50,11 @@ def retrieve(query: Mesh, collection: Sequence[Mesh], features: Callable[[Mesh],
     EigensolverFailed
         E402.
 
+    Notes
+    -----
+    Meshes are to be of similar resolution, as signatures depend on it. In a collection of shapes that are much alike,
+    one of them with 5,000 vertices in place of 1,000 is 0.3 from all of them.
+
     See Also
     --------
     BagOfFeatures : To learn words once and use them for many queries.

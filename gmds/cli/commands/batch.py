@@ -50,12 +50,16 @@ def command(list_or_dir: Path, output: Path, as_json: bool, **options: Any) -> N
     \b
     The output folder holds
       pairs/A__B.npz  maps, as `gmds match` writes them, but for the time it took
-      summary.csv     a row for every pair: its status, or the code and the reason of a failure
+      summary.csv     a row for every pair: source, target, status; valid (share of the vertices of the source that
+                      have a counterpart), distortion (the median), stress, margin (how much likelier the map is than
+                      any other), blame (how far points go astray around triangles of shapes with this map in them),
+                      code and reason of a failure
       cycles.csv      how far from home points come that go A > B > C > A, worst first
       manifest.jsonl  what happened when: a line of JSON for every run, shape and pair
       shapes/         what was measured of each shape, once for all its pairs
 
-    What is there and whole is not done again, so the same command goes on with a batch that was interrupted. A mesh
+    What is there and whole is not done again, so the same command goes on with a batch that was interrupted; with
+    other settings all pairs are done again, and their maps replaced. A mesh
     that is broken, a worker that dies, a pair that takes too long is told and the rest goes on; the exit code is then
     3. Only one run at a time works in a folder; to have more machines work on it, start a dask scheduler and workers
     that see the same folders, and give its address.

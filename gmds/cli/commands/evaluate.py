@@ -51,6 +51,16 @@ def command(
     parts missing (source vertices without a counterpart), which adds how well the map tells them apart (overlap);
     another map.npz; a .vts file (one target vertex a line, from 1) with the source's own .vts as --source-truth, or
     with one line per source vertex; SHREC'20 .mat landmarks of both.
+
+    \b
+    What is printed
+      direct, sym  errors by either truth: how many points, mean and median (times 100), and the percentages of errors
+                   of at most 0.05, 0.1 and 0.25
+      best         the lesser mean of the two, as for shapes whose left and right cannot be told apart
+      coverage     percentage of the target's area that some vertex of the source is sent to
+      valid        percentage of the vertices of the source that have a counterpart
+      overlap      for parts: how well the map tells what has one, in percent
+      curve        the shares of points with errors of at most 0, 0.01, ... 0.25
     """
     from dataclasses import asdict
 

@@ -40,7 +40,8 @@ def command(
       test.csv    shape and growth: share of the variation that is explained, F, p by permutation (Procrustes ANOVA);
                   Hotelling's T squared of so many principal components, its p by permutation
       points.csv  a row a vertex: slope of growth (for two groups, how much longer it is in the second, as a
-                  logarithm), its 95 % limits, p, and q, the rate of false discoveries
+                  logarithm), its 95 % limits and p by Student's t, and q, the rate of false discoveries;
+                  p is no less than permuting so few specimens could give, so of few no place is found
       growth.csv  growth itself: a row a vertex, a column a specimen; nothing where a specimen has no such point
       points.png  the slope, and where q is below 0.05, on the mean shape
     """

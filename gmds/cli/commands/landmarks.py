@@ -126,7 +126,9 @@ def _one(source: Path, landmarks: Path, target: Path, output: Path, options: dic
         paired(marks, truth)
     answer = _map(*meshes, options["map_file"], options["orientation"], options["seed"])
     carried = carry_landmarks(answer, marks)
-    columns = {
+    moved = zip(carried.moved.tolist(), marks.defined, strict=True)
+    columns: dict[str, list[object]] = {
+        "moved": [float(f"{far:.4g}") if there else "NA" for far, there in moved],
         "confidence": ["NA" if value is None else round(value, 4) for value in known(carried.confidence)],
         "valid": carried.valid.astype(int).tolist(),
     }

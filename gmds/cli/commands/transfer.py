@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from gmds.cli.carried_values import KINDS, METHODS, as_colours, carried_values
+from gmds.cli.carried_values import KINDS, METHODS, as_colours, carried_values, refuse_labels
 from gmds.cli.directions import upwards
 from gmds.cli.fields import FILE, picture_option, write_field
 from gmds.cli.group import Command
@@ -157,6 +157,8 @@ def _carry_values(
         raise click.UsageError(f"{file} holds names ({given.dtype}), not numbers; give --labels to carry them")
     if given.dtype.kind in "iu" and given.ndim == 1 and kind == "numbers":
         note("values are whole numbers and get interpolated; --labels carries them as names")
+    if kind == "weights":
+        refuse_labels(given, file)
     if kind == "colours":
         given = as_colours(given, file)
     carried = carried_values(answer, given, kind, options["most"])

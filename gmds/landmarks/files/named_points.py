@@ -53,6 +53,8 @@ class Landmarks:
         False for those that are excluded, as in 3D Slicer; they are kept and carried like all others.
     lists : tuple of PointList, optional
         Which of them, one list after the other, are single points and which the points of a curve.
+    framed : bool
+        Whether their file said in which frame it is, LPS or RAS, as those of 3D Slicer do.
 
     Raises
     ------
@@ -71,6 +73,7 @@ class Landmarks:
     status: tuple[Status, ...] = ()
     selected: tuple[bool, ...] = ()
     lists: tuple[PointList, ...] = ()
+    framed: bool = False
 
     def __post_init__(self) -> None:
         at = np.array(self.at, dtype=np.int64 if np.ndim(self.at) == 1 else np.float64)
@@ -102,7 +105,7 @@ class Landmarks:
         chosen = np.arange(len(self))[rows]
         names, status = (tuple(words[i] for i in chosen) for words in (self.names, self.status))
         selected = tuple(self.selected[i] for i in chosen)
-        return Landmarks(names, self.at[chosen], self.named, status, selected, self._lists_of(chosen))
+        return Landmarks(names, self.at[chosen], self.named, status, selected, self._lists_of(chosen), self.framed)
 
     def _lists_of(self, chosen: Integers) -> tuple[PointList, ...]:
         """The lists of some of the landmarks; none where they are in another order."""

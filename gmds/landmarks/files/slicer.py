@@ -52,7 +52,7 @@ def parse_mrk(path: Path, text: str, space: Space) -> Landmarks:
     rows = Rows(path)
     for i, markup in enumerate(content["markups"]):
         _read_markup(rows, f"markups[{i}]", markup, space)
-    return rows.landmarks()
+    return replace(rows.landmarks(), framed=True)
 
 
 def mrk_text(landmarks: Landmarks, space: Space, columns: Columns) -> str:
@@ -103,7 +103,7 @@ def parse_fcsv(path: Path, text: str, space: Space) -> Landmarks:
         at = position(path, number, [cells[axis] for axis in "xyz"])
         rows.add(f"line {number}", unguarded(cells["label"]), at)
     landmarks = rows.landmarks()
-    return replace(landmarks, at=turned(landmarks.at, given, space))
+    return replace(landmarks, at=turned(landmarks.at, given, space), framed=True)
 
 
 def fcsv_text(landmarks: Landmarks, space: Space, columns: Columns) -> str:

@@ -51,7 +51,10 @@ def parse_csv(path: Path, text: str, space: Space) -> Landmarks | Specimens:
     given = axes if axes in SPACES else space
     read = {specimen: rows.landmarks() for specimen, rows in (found or {"": Rows(path)}).items()}
     if "position" in columns:
-        read = {specimen: replace(one, at=turned(one.at, given, space)) for specimen, one in read.items()}
+        read = {
+            specimen: replace(one, at=turned(one.at, given, space), framed=axes in SPACES)
+            for specimen, one in read.items()
+        }
     return read if "specimen" in columns else read[""]
 
 

@@ -315,6 +315,11 @@ def test_weights_keep_summing_to_one_and_vectors_turn(carry: list[object], tmp_p
     assert ((np.load(tmp_path / "few.npy") > 0).sum(axis=1) <= 2).all()
     other = [*carry, "--values", tmp_path / "w.npy", "--most", 2, "-o", tmp_path / "o.npy"]
     assert "--kind weights" in refused(*other, code=2)
+    np.savetxt(tmp_path / "parts.txt", np.arange(MESH.n_vertices) % 2 + 1, fmt="%d")
+    labels = refused(*carry, "--values", tmp_path / "parts.txt", "--kind", "weights", "-o", tmp_path / "o.npy", code=2)
+    assert "parts.txt holds one column, of whole numbers up to 2" in labels and "--kind labels" in labels
+    np.savetxt(tmp_path / "one.txt", np.ones(MESH.n_vertices))
+    done(*carry, "--values", tmp_path / "one.txt", "--kind", "weights", "-o", tmp_path / "one.npy")
     weights[5] = -1
     np.save(tmp_path / "w.npy", weights)
     assert "vertex 5" in refused(*carry, "--values", tmp_path / "w.npy", "--kind", "weights", "-o", tmp_path / "o.npy")
@@ -382,6 +387,9 @@ def test_values_that_do_not_fit_are_refused(carry: list[object], tmp_path: Path)
         ("v.csv", b"a,b\n1,2\n3\n4,5\n", "line 3: 1 entries where the first row has 2"),
         ("v.csv", b"vertex,h\n0,2\n2,3\n1,5\n", "line 3: vertex '2' where 1 should be"),
         ("v.txt", b"1\n2\n", "has 2 rows; the target has 3 vertices"),
+        ("v.csv", b"vertex,h\n0,1\n1,2\n", "has 2 rows below its header; the target has 3 vertices"),
+        ("v.csv", b"h,w\n1,1\n2,2\n", "has 2 rows below its header; the target has 3 vertices"),
+        ("v.csv", b"h\n1\n2\n3\n4\n", "has 4 rows below its header"),
         ("v.txt", b"1\n2\n3\n4\n5\n", "has 5 rows"),
         ("v.txt", b"", "has 0 rows"),
         ("v.txt", b"1\n\xff\n3\n", "not UTF-8"),

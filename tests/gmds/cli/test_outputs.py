@@ -144,3 +144,16 @@ def test_signs_that_no_font_has_make_no_noise(tmp_path: Path, recwarn: pytest.Wa
     answer = Correspondence.from_points(SHAPE, identity)
     answer.picture(tmp_path / "a.png", title="股骨 \U00010380")
     assert not [str(warning.message) for warning in recwarn if "Glyph" in str(warning.message)]
+
+
+def test_of_a_list_every_entry_has_its_line(capsys: pytest.CaptureFixture[str]) -> None:
+    output.emit(
+        {"name": "x", "candidates": [{"stress": 0.1, "orientation": -0.5}, {"stress": 0.2, "orientation": 1.0}]}, False
+    )
+    assert capsys.readouterr().out.splitlines() == [
+        "name:       x",
+        "candidates: stress 0.1, orientation -0.5",
+        "            stress 0.2, orientation 1",
+    ]
+    output.emit({"sizes": [1, 2], "pairs": [["a", "b"], ["c", "d"]], "none": []}, False)
+    assert capsys.readouterr().out.splitlines() == ["sizes: 1, 2", "pairs: a, b", "       c, d", "none:  none"]

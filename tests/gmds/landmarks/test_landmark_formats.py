@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from generated_shapes import bumpy_sphere
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from landmark_texts import AT, HEAD, IN_SPACE, MARKS, NAMED, markups, written
 
+from geodesics import Mesh
+from gmds.errors import LandmarkError
+from gmds.landmarks.checking import check_landmarks, place_on
 from gmds.landmarks.files import BadLandmarkFile, Landmarks, read_landmarks, write_landmarks
 
 
@@ -141,3 +146,37 @@ def test_points_of_faces_come_back(tmp_path: Path) -> None:
         read_landmarks(tmp_path / "bad.csv")
     with pytest.raises(BadLandmarkFile, match="keeps positions"):
         write_landmarks(tmp_path / "m.pts", marks)
+
+
+@pytest.mark.parametrize("ending", [".mrk.json", ".fcsv"])
+def test_landmarks_that_lie_close_in_the_other_frame_are_refused(tmp_path: Path, ending: str) -> None:
+    ball = bumpy_sphere(2)
+    mesh = Mesh(ball.vertices * [1, 1.05, 1.1], ball.faces)  # nothing is farther off than 5 % in either frame
+    marks = Landmarks(("a", "b", "c"), mesh.vertices[[3, 60, 90]])
+    write_landmarks(tmp_path / f"a{ending}", marks, "LPS")
+    write_landmarks(tmp_path / f"b{ending}", marks, "RAS")
+    right = read_landmarks(tmp_path / f"a{ending}", "LPS"), read_landmarks(tmp_path / f"b{ending}", "RAS")
+    wrong = read_landmarks(tmp_path / f"a{ending}", "RAS"), read_landmarks(tmp_path / f"b{ending}", "LPS")
+    for good, bad in zip(right, wrong, strict=True):
+        assert good.framed and np.allclose(place_on(good, mesh).positions, good.at)
+        said = r"E305: the landmarks of the (source|surface) lie .* but 0\.00% with the signs of x and y .*--space RAS"
+        for refused in (lambda x=bad: place_on(x, mesh), lambda x=bad: check_landmarks((x, x), mesh, mesh)):
+            with pytest.raises(LandmarkError, match=said):
+                refused()
+        assert (place_on(replace(bad, framed=False), mesh).positions != bad.at).any(), "its file did not say a frame"
+        careless = replace(good, at=good.at * 1.04)  # off the surface, in the right frame
+        assert len(place_on(careless, mesh)) == 3
+
+
+def test_where_a_surface_is_the_same_in_both_frames_none_is_refused() -> None:
+    u, v = np.meshgrid(np.linspace(-1, 1, 21), np.linspace(-1, 1, 21))
+    corner = (np.arange(20)[:, None] * 21 + np.arange(20)).ravel()
+    faces = np.concatenate(
+        [np.stack([corner, corner + 1, corner + 22]).T, np.stack([corner, corner + 22, corner + 21]).T]
+    )
+    for lean in (0.0, 1e-4):  # the same turned by half a circle about z, or nearly so
+        mesh = Mesh(np.stack([u.ravel(), v.ravel(), (u**2 + 2 * v**2 + lean * u).ravel()]).T, faces)
+        for off in (0.0, 0.05):
+            at = mesh.vertices[[50, 120, 333]] + [0, 0, off]
+            for marks in (at, at * [-1, -1, 1]):
+                assert len(place_on(Landmarks(("a", "b", "c"), marks, framed=True), mesh)) == 3

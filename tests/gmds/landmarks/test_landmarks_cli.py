@@ -137,8 +137,8 @@ def test_points_without_a_counterpart_are_flagged(pair: tuple[Path, Path], tmp_p
     assert said[0]["confidence"] == 0 and said[2]["confidence"] == 0
     assert "without a counterpart on the target: v40" in result.stderr
     lines = (tmp_path / "b.csv").read_text().splitlines()
-    assert lines[0] == "name,x,y,z,confidence,valid"
-    assert lines[1].endswith(",0.0,0") and lines[2].endswith(",0.9689,1")
+    assert lines[0] == "name,x,y,z,moved,confidence,valid"
+    assert lines[1].endswith(",0.0,0.0,0") and lines[2].endswith(",0.0,0.9689,1")
     human = run("landmarks", pair[0], tmp_path / "a.csv", pair[1], "-o", tmp_path / "b.csv").stdout
     assert "v40:" in human and "valid False" in human
 
@@ -151,6 +151,10 @@ def test_distance_moved_is_told(pair: tuple[Path, Path], tmp_path: Path) -> None
     result = run("landmarks", pair[0], tmp_path / "a.csv", pair[1], "-o", tmp_path / "b.csv", "--json")
     row = json.loads(result.stdout)["carried"][0]
     assert row["moved"] == pytest.approx(0.01)
+    titles, told = ((tmp_path / "b.csv").read_text().splitlines()[i].split(",") for i in (0, 1))
+    assert told[titles.index("moved")] == "0.01"
+    assert run("landmarks", pair[0], tmp_path / "a.csv", pair[1], "-o", tmp_path / "b.mrk.json").exit_code == 0
+    assert '"description": "moved 0.01, confidence 0.' in (tmp_path / "b.mrk.json").read_text()
     assert np.allclose(row["position"], TARGET.vertices[SHAPE.faces[7]].mean(axis=0))
 
 

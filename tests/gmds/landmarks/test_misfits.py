@@ -9,6 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from geodesics import Mesh, SurfacePoints
 from gmds import Correspondence
+from gmds.landmarks.checking import place_landmarks
 from gmds.landmarks.misfits import MISFIT, misfits, named
 
 MESH = bumpy_sphere(4)
@@ -74,5 +75,12 @@ def test_right_landmarks_of_a_mirror_image_fit_a_map_that_says_it_reverses() -> 
 
 def test_landmarks_are_called_by_their_names() -> None:
     far = np.array([0.3, 0.1, 0.25])
-    assert named(np.array([0, 2]), far, ()) == "number 0 by 0.30, number 2 by 0.25"
+    assert named(np.array([0, 2]), far, ("nose", "hand", "foot")) == "nose by 0.30, foot by 0.25"
     assert named(np.array([2]), far, ("nose", "hand", "foot")) == "foot by 0.25"
+
+
+def test_landmarks_without_names_are_called_by_their_vertices() -> None:
+    assert place_landmarks([[7, 9], [0, 3]], MESH, MESH).called == ("vertex 7 on vertex 9", "vertex 0 on vertex 3")
+    inside = MESH.vertices[MESH.faces[[4, 20]]].mean(axis=1)
+    assert place_landmarks(([7, 9], inside), MESH, MESH).called == ("vertex 7", "vertex 9")
+    assert place_landmarks((inside, [7, 9]), MESH, MESH).called[1] == "landmark 1 (counted from 0)"

@@ -117,6 +117,20 @@ def test_of_few_specimens_all_ways_are_taken_and_said_to_be_few() -> None:
     assert np.isclose(shape_test(y, design([1.0, 2, 3, 7])).p, np.mean(np.array(every) >= every[0] * (1 - 1e-9)))
 
 
+def test_no_place_is_surer_than_permuting_so_few_specimens_could_make_it() -> None:
+    x = np.array([0.0, 0.0, 1.0])  # two of one group and one of the other: three ways to deal them out
+    values = np.random.default_rng(2).normal(size=(3, 2000))
+    values[:, 0] = x + np.array([0, 1e-9, 0])
+    found = point_tests(values, x)
+    assert found.p.min() == found.p[0] == least_probability(["a", "a", "b"]) and not (found.q < 1 / 3).any()
+    halves = np.repeat([0.0, 1.0], 3)  # each division into two equal groups comes twice
+    values = halves[:, None] + 1e-6 * np.random.default_rng(2).normal(size=(6, 4))
+    values[0, 3] = np.nan  # of five there are as many ways as of six less those that swap names
+    assert np.allclose(point_tests(values, halves).p, 0.1)
+    covariate = np.array([1.0, 2, 4, 7])
+    assert np.isclose(point_tests(covariate[:, None] + [[1e-9], [0], [0], [0]], covariate).p[0], 1 / 24)
+
+
 def test_groups_of_one_are_named() -> None:
     alone, least = told_of_sizes(["cat", "cat", "dog"], ["x", "y", "z"])
     assert "group dog has one specimen, z:" in alone and "(cat 2, dog 1) p is 0.33 at the least" in least
