@@ -20,7 +20,8 @@ from geodesics import Mesh, SurfacePoints
 from geodesics.arrays import Floats, Integers
 from geodesics.closest import closest_on_triangles
 from gmds.correspondence import Correspondence
-from gmds.surface.measured import Surface, measured_as_it_is, on_original
+from gmds.surface.measured import Surface, measured_as_it_is
+from gmds.surface.originals import on_original
 
 SPREAD = 1000  # points of each surface that rigid alignments are sought by
 BEGUN, ENDED = 20, 100  # iterations of closest points from every start, and from the best

@@ -11,15 +11,13 @@ from scipy.optimize import linear_sum_assignment
 from geodesics import Mesh, SurfacePoints
 from geodesics.arrays import Bools, Floats, Integers
 from geodesics.caching import cached_property
-from geodesics.errors import Note
 from geodesics.points import mixed
 from geodesics.topology.components import component_areas, vertex_components
 from gmds.comparison.profiles import distance_profile, least_distortion
 from gmds.correspondence import Correspondence
 from gmds.errors import TooFewVertices
 from gmds.maps.point_map import Candidate, MatchStatus
-from gmds.matching.evidence import Evidence
-from gmds.matching.rating import AMBIGUOUS_MARGIN
+from gmds.matching.changed_places import changed_places, doubted
 from gmds.surface.measured import Surface, measured_as_it_is
 
 # All set by hand. A part is a body of its own from this share of the area of the largest; of so many bodies of a mesh,
@@ -101,13 +99,14 @@ def matched_bodies(
         rest, gap = _partners(answer, pair, ours, theirs, unlike.T if swapped else unlike)
         begun.append((answer.status is MatchStatus.POOR, gap + unlike[0, j], len(begun), answer, pair, rest))
     *_, answer, pair, rest = min(begun, key=lambda one: one[:3])
-    note = _disputed(answer, pair, [one[3:5] for one in begun])
+    others = [(one[3], (int(one[4][0].vertices[0]), int(one[4][1].vertices[0]))) for one in begun]
+    note = changed_places(answer, others)
     maps = [(pair, answer), *((two, match(*two)) for two in rest)]
     kept = [one for one in maps if one[1].status is not MatchStatus.POOR] or maps[:1]
     alone = [i for i, one in enumerate(ours) if all(one is not pair[0] for pair, _ in kept)]
     without = [j for j, one in enumerate(theirs) if all(one is not pair[1] for pair, _ in kept)]
     joined = _joined(kept, whole)
-    return joined if note is None else _doubted(joined, note), alone, without
+    return joined if note is None else doubted(joined, note), alone, without
 
 
 def _partners(
@@ -129,37 +128,6 @@ def _partners(
     return [(ours[rows[i]], theirs[columns[j]]) for i, j in zip(row, column, strict=True)], float(
         cost[row, column].mean()
     )
-
-
-def _disputed(
-    answer: Correspondence,
-    pair: tuple[Body, Body],
-    others: Sequence[tuple[Correspondence, tuple[Body, Body]]],
-) -> Note | None:
-    """What is said of the `answer` for a pair of bodies where that of another pair is far likelier, by shape."""
-    said = [(_neg_log_likelihood(one), two) for one, two in others if one.status is not MatchStatus.POOR]
-    best, likelier = min(said, key=lambda one: one[0], default=(np.inf, pair))
-    if not _neg_log_likelihood(answer) - best > AMBIGUOUS_MARGIN:
-        return None
-    at = [int(one.vertices[0]) for one in likelier]
-    message = (
-        f"the bodies are paired by where they are; by its shape that of the source at vertex {at[0]} is rather that of "
-        f"the target at vertex {at[1]}: if bodies have changed places, split the meshes and match them one by one"
-    )
-    return Note("W310", "warning", message, tuple(at))
-
-
-def _doubted(answer: Correspondence, note: Note) -> Correspondence:
-    """The answer, AMBIGUOUS at the best: one pairing of the bodies is as likely as the other."""
-    status = max(answer.status, MatchStatus.AMBIGUOUS, key=lambda one: one.rank)
-    meta = {**answer.meta, "notes": [*answer.meta.get("notes", ()), str(note)]}
-    return replace(answer, status=status, confidence=answer.confidence / 2, meta=meta)
-
-
-def _neg_log_likelihood(answer: Correspondence) -> float:
-    """That of a map of two wholes; infinite for that of a part, which is not to be compared with it."""
-    told = answer.meta.get("evidence", {})
-    return np.inf if "part" in answer.meta or "outline" not in told else Evidence.from_meta(told).neg_log_likelihood
 
 
 def _similarity(body: Body, answer: Correspondence) -> Callable[[Floats], Floats]:

@@ -21,7 +21,8 @@ from gmds.registration.deformable import DeformableMesh
 from gmds.registration.register import settled
 from gmds.registration.settings import AFFINE_AGAIN
 from gmds.spectral.orientation import orientation_score
-from gmds.surface.measured import Surface, measured_as_it_is, on_original
+from gmds.surface.measured import Surface, measured_as_it_is
+from gmds.surface.originals import on_original
 
 # Vertices of the copy, and those up to which a surface is matched as it is: whole SHREC'20 animals take 13 CPU seconds
 # as copies instead of 31 (benchmarks/results/notes.md, "Speed of a match").

@@ -13,7 +13,7 @@ from gmds.maps.point_map import Candidate, MatchStatus
 from gmds.matching.attempts import Attempt, Orientation, Wanted
 from gmds.matching.pair import SurfacePair
 from gmds.matching.part_answers import likelier_part
-from gmds.matching.proposals import Proposal, likeliest, proposals
+from gmds.matching.proposals import Proposal, proposals
 from gmds.matching.rating import AMBIGUOUS_MARGIN
 from gmds.matching.result import correspondence_of
 from gmds.matching.steps import rounds_of, starts_of
@@ -108,7 +108,7 @@ def explains_more(found: Sequence[Attempt]) -> bool:
         return False
     if pair.isometric and own_symmetry(pair) > AS_BODIES_ARE:
         return False
-    here = likeliest([one for attempt in found for one in attempt.maps])
+    here = _likeliest([one for attempt in found for one in attempt.maps])
     there = _first_mirrored(found[0], here)
     gain = unexplained_curvature(here.residuals) - unexplained_curvature(there.residuals)
     return here.neg_log_likelihood > there.neg_log_likelihood and gain > WORTH_A_LOOK
@@ -127,7 +127,12 @@ def _first_mirrored(attempt: Attempt, best: Proposal) -> Proposal:
         here = image.simplified[0]
         places = pair.source.mesh.vertices[reflection[here.origin]]
         return Proposal.of(image, best.registered.y[here.places.query(places)[1]] * AXES)
-    return likeliest(proposals(image, rounds_of(image, None)[0][:1], starts_of(image)).maps)
+    return _likeliest(proposals(image, rounds_of(image, None)[0][:1], starts_of(image)).maps)
+
+
+def _likeliest(maps: Sequence[Proposal]) -> Proposal:
+    """The likeliest of some proposals."""
+    return min(maps, key=lambda one: one.neg_log_likelihood)
 
 
 def curvature_gain(found: Sequence[Attempt], other: Attempt) -> float:

@@ -28,7 +28,8 @@ from gmds.matching.rivals import Rivals
 from gmds.matching.steps import Report
 from gmds.mds.losses import Loss
 from gmds.provenance import versions
-from gmds.surface.measured import Surface, on_original
+from gmds.surface.measured import Surface
+from gmds.surface.originals import on_original
 
 Part = Literal["source", "target", "both"]
 Parts = Literal["auto", "neither", "source", "target", "both"]

@@ -122,7 +122,7 @@ def proposals(
         cheap = _without_repeats(cheapest(begun)[: max(LEAST_SETTLED, len(begun) // 3)], source)
         ended = cheapest(there.of(cheap, parts[1]))
         maps = done.of(ended[:MOST_RETURNED], parts[2])
-        best = likeliest(maps)
+        best = min(maps, key=lambda one: one.neg_log_likelihood)
         if number + 1 < len(rounds) and _decisive(pair, best):
             return Proposed(maps, keeps_sizes(source, best.registered.y), ended)
     return Proposed(maps, isometric=False, settled=ended)
@@ -191,11 +191,6 @@ def rough_maps(pair: SurfacePair, views: Sequence[tuple[View, View]], starts: Se
         back = there.places.query(pair.target.mesh.vertices[theirs[there.origin]])[1]
         turned = [back[images] for images in straight]
     return straight + turned
-
-
-def likeliest(maps: Sequence[Proposal]) -> Proposal:
-    """The likeliest of some proposals."""
-    return min(maps, key=lambda one: one.neg_log_likelihood)
 
 
 def likely_maps(maps: Sequence[Proposal], areas: Floats) -> list[Proposal]:

@@ -17,7 +17,7 @@ from gmds.matching.candidates import MapCandidate
 from gmds.matching.rating import AMBIGUOUS_MARGIN, confidence_of, expected_share, status_of
 from gmds.matching.rivals import Rivals
 from gmds.provenance import versions
-from gmds.surface.measured import on_original
+from gmds.surface.originals import on_original
 
 # Beyond these a map looks wrong: stress (relative change of distances), correlation of mean curvature, elastic energy
 # (at 1 lengths are off by about half). Set by hand.

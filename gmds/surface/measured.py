@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from geodesics import Mesh, Metric, Spectrum, SurfacePoints, eigenpairs, embedded, scale_invariant
+from geodesics import Mesh, Metric, Spectrum, eigenpairs, embedded, scale_invariant
 from geodesics.arrays import Floats, Integers
 from geodesics.caching import cached_property, memoized
 from geodesics.curvature import mean_curvature
@@ -193,16 +193,3 @@ def view_of(distance: object, surface: Surface) -> View:
         return View.of(spectrum)
     metric = getattr(distance, "metric", None)
     return surface.view(lambda mesh: metric) if isinstance(metric, Metric) else surface.regular
-
-
-def on_original(surface: Surface, points: SurfacePoints) -> SurfacePoints:
-    """Points of a measured surface as points of the mesh that was measured."""
-    face, weight = surface.face_index[points.face], points.barycentric
-    weight = turned_back(weight, surface.mesh.faces[points.face], surface.original.faces[face])
-    return SurfacePoints(surface.original, face, weight)
-
-
-def turned_back(weights: Floats, corners: Integers, others: Integers) -> Floats:
-    """Weights (p, 3) of corners (p, 3) as weights of the same corners in another order; the first stays the first."""
-    swapped = (corners != others).any(axis=1, keepdims=True)
-    return np.where(swapped, weights[:, [0, 2, 1]], weights)

@@ -9,7 +9,8 @@ import numpy as np
 from geodesics import Mesh, SurfacePoints
 from geodesics.arrays import Bools, Integers
 from geodesics.caching import cached_property
-from gmds.surface.measured import Surface, measured_as_it_is, turned_back
+from gmds.surface.measured import Surface, measured_as_it_is
+from gmds.surface.originals import turned_back
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,7 +8,8 @@ from generated_shapes import bumpy_sphere, joined
 
 from geodesics import Mesh, MeshError, SurfacePoints
 from gmds.errors import TooFewVertices
-from gmds.surface.measured import Surface, measure, on_original
+from gmds.surface.measured import Surface, measure
+from gmds.surface.originals import on_original
 from gmds.surface.region import Region
 
 
