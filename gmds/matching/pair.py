@@ -95,10 +95,7 @@ class SurfacePair:
 @memoized
 def simplified(surface: Surface) -> DeformableMesh:
     """The surface with few faces."""
-    other = surface.mirror_of
-    if other is None or surface.turned or surface.reflected == other.reflected:
-        return DeformableMesh.simplified(surface)
-    return simplified(other).mirrored
+    return DeformableMesh.simplified(surface)
 
 
 @memoized

@@ -61,12 +61,6 @@ class DeformableMesh:
         origin = used[cKDTree(surface.mesh.vertices[used]).query(mesh.vertices)[1]]
         return cls(mesh, origin, surface.squashed_curvature[origin])
 
-    @property
-    def mirrored(self) -> DeformableMesh:
-        """The mirror image, with x the other way round and an outside that is outside; no anchors."""
-        image = Mesh(self.mesh.vertices * (-1.0, 1.0, 1.0), self.mesh.faces[:, [0, 2, 1]])
-        return DeformableMesh(image, self.origin, self.curvature)
-
     @cached_property
     def usable(self) -> Integers:
         """Vertices with area."""

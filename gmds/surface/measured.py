@@ -39,8 +39,7 @@ class Surface:
 
     `mesh` has the vertices of `original`, moved and scaled, and the faces `face_index` of it, the largest first; all of
     them `turned` inside out where that is meant. Where the mesh that was given has faults, `original` is its `clean`
-    copy. `mirror_of`: the surface of which this is the mirror image, which has the same metrics, so that its
-    eigenfunctions serve both.
+    copy.
     """
 
     original: Mesh
@@ -48,7 +47,6 @@ class Surface:
     face_index: Integers
     turned: bool = False
     clean: CleanCopy | None = None
-    mirror_of: Surface | None = None
 
     def __repr__(self) -> str:
         return f"Surface(unit area, {self.mesh!r})"
@@ -70,15 +68,11 @@ class Surface:
     @memoized
     def curved(self, exponent: float) -> View:
         """The surface in the metric |K|^a g, a the exponent."""
-        if self.mirror_of is not None:
-            return self.mirror_of.curved(exponent).on(self.mesh)
         return self.view(functools.partial(scale_invariant, exponent=exponent, smoothing=SMOOTHING))
 
     @cached_property
     def regular(self) -> View:
         """The surface in the metric of space."""
-        if self.mirror_of is not None:
-            return self.mirror_of.regular.on(self.mesh)
         return View.of(eigenpairs(embedded(self.mesh), self.count))
 
     @cached_property
@@ -111,7 +105,7 @@ class Surface:
     @cached_property
     def reflection(self) -> Surface:
         """The mirror image of the surface."""
-        return replace(measured_as_it_is(self.original, reflected=True), mirror_of=self)
+        return measured_as_it_is(self.original, reflected=True)
 
     @cached_property
     def inside_out(self) -> Surface:
@@ -121,8 +115,6 @@ class Surface:
     @cached_property
     def squashed_curvature(self) -> Floats:
         """Mean curvature (n,), squashed to [-1, 1] so that finger tips do not outvote the rest."""
-        if self.mirror_of is not None and not self.turned:
-            return self.mirror_of.squashed_curvature
         curvature = mean_curvature(self.mesh, DETAIL)
         typical = np.median(np.abs(curvature[self.regular.usable]))
         return np.tanh(curvature / typical) if typical > FLAT else np.zeros_like(curvature)

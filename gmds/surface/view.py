@@ -34,11 +34,6 @@ class View:
         values, functions = spectrum.eigenvalues * area, spectrum.eigenfunctions * np.sqrt(area)
         return cls(spectrum.mesh, Spectrum(spectrum.mesh, spectrum.mass / area, values, functions))
 
-    def on(self, mesh: Mesh) -> View:
-        """The same on another mesh (n vertices) whose triangles have the same sides: a mirror image."""
-        spectrum = self.spectrum
-        return View(mesh, Spectrum(mesh, spectrum.mass, spectrum.eigenvalues, spectrum.eigenfunctions))
-
     @property
     def functions(self) -> Floats:
         """Eigenfunctions (n, k), the first constant."""

@@ -183,19 +183,6 @@ def test_a_hand_is_not_told_from_itself() -> None:
     assert answer.status is MatchStatus.GOOD and not answer.meta["notes"]
 
 
-def test_a_mirror_image_shares_what_is_measured_of_the_surface() -> None:
-    surface = measure(hand(0.0, 0))
-    image, anew = surface.reflection, measure(other_side(surface.original))
-    assert image.regular.functions is surface.regular.functions
-    np.testing.assert_allclose(image.regular.eigenvalues, anew.regular.eigenvalues, atol=1e-6)
-    np.testing.assert_allclose(image.squashed_curvature, anew.squashed_curvature, atol=1e-6)
-    few = simplified(image)
-    assert image.reflected and (few.origin == simplified(surface).origin).all()
-    assert np.linalg.norm(image.mesh.vertices[few.origin] - few.mesh.vertices, axis=1).max() < 0.05
-    normals = simplified(surface).normals * (-1.0, 1.0, 1.0)
-    np.testing.assert_allclose(few.normals, normals, atol=1e-9)
-
-
 def test_a_left_one_on_a_left_one_is_not_mirrored() -> None:
     kept = gmds.match(bone(0), bone(1), n_samples=60, orientation="auto")
     assert kept.status is MatchStatus.GOOD
