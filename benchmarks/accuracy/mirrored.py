@@ -135,7 +135,7 @@ def page(rows: Sequence[dict[str, Any]]) -> str:
         "undecided",
         "not mirrored",
         "called mirrored",
-        "undecided",
+        "others undecided",
         "weighed",
         "test, CPU s (median, most)",
     ]

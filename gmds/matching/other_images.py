@@ -176,6 +176,6 @@ def with_candidate(
     evidence = image.meta["evidence"]
     candidate = Candidate(image.points, evidence["stress"], evidence["orientation"])
     confidence = answer.confidence * expit(-gain)
-    status = MatchStatus.AMBIGUOUS if undecided and answer.status is MatchStatus.GOOD else answer.status
-    status = status if undecided else MatchStatus.POOR
+    least = MatchStatus.AMBIGUOUS if undecided else MatchStatus.POOR
+    status = max(answer.status, least, key=lambda one: one.rank)
     return replace(answer, status=status, confidence=confidence, candidates=(candidate, *answer.candidates))
